@@ -1,0 +1,1 @@
+"""singsym finds and classifies every singularity of a mechanism, exactly."""

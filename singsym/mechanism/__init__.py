@@ -1,0 +1,1 @@
+"""Mechanisms as data: model, file format, checks, library."""

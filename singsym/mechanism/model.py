@@ -1,0 +1,229 @@
+"""A mechanism as data: links, joints, inputs, outputs, parameters and exclusions.
+
+Source: Zlatanov, Fenton, Benhabib (1998), section 2; the data model is singsym's own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from functools import cached_property
+
+import networkx
+import sympy
+
+Vector = tuple[sympy.Expr, ...]
+
+
+class Space(StrEnum):
+    """Where a mechanism moves."""
+
+    PLANAR = "planar"
+    SPHERICAL = "spherical"
+    SPATIAL = "spatial"
+
+
+class JointKind(StrEnum):
+    """The lower pairs and the universal joint, with the names of their freedoms in column order.
+
+    >>> JointKind.C.freedoms
+    ('angle', 'slide')
+    """
+
+    R = "R"
+    P = "P"
+    H = "H"
+    C = "C"
+    U = "U"
+    S = "S"
+    E = "E"
+
+    @property
+    def freedoms(self) -> tuple[str, ...]:
+        """The joint's freedoms: R, H rotate; P slides; C both; U about its two axes; S x, y, z; E x, y, angle."""
+        return {
+            "R": ("angle",),
+            "P": ("slide",),
+            "H": ("angle",),
+            "C": ("angle", "slide"),
+            "U": ("angle1", "angle2"),
+            "S": ("x", "y", "z"),
+            "E": ("x", "y", "angle"),
+        }[self.value]
+
+
+@dataclass(frozen=True)
+class Link:
+    """A rigid body: points and directions named in its own frame (2 coordinates planar, 3 spatial).
+
+    The ground's frame is the fixed frame.  The same point name in several links is the same point of
+    space only where a joint says so.
+    """
+
+    name: str
+    points: Mapping[str, Vector]
+    axes: Mapping[str, Vector]
+
+
+@dataclass(frozen=True)
+class Joint:
+    """A joint between two links, `first` nearer the ground where there is a choice.
+
+    at: the name, in each of the two links, of the joint's point.  R, H, C: a point on the axis;
+        P: the sliding point of `second`, on the line through `first`'s point along the axis.
+    axes: the name, in each link, of the joint's direction: R, P, H, C the axis (the same direction of
+        space in both); U the first axis in `first` and the second in `second`, at right angles;
+        E the normal; S and planar R none.
+    zero: P, and the frames of R/H/C where given: none is needed, see `kinematics`.
+    pitch: H only, length per radian.
+    Joints P and E keep what rotation they forbid as it is when the two links' frames are parallel.
+    """
+
+    name: str
+    kind: JointKind
+    first: str
+    second: str
+    at: tuple[str, str]
+    axes: tuple[str, str] | None = None
+    pitch: sympy.Expr | None = None
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Labels of its columns in L: the joint's name, with the freedom where it has several.
+
+        >>> Joint("A", JointKind.R, "ground", "crank", ("A", "A")).columns
+        ('A',)
+        >>> Joint("B", JointKind.S, "ground", "crank", ("B", "B")).columns
+        ('B.x', 'B.y', 'B.z')
+        """
+        freedoms = self.kind.freedoms
+        return (self.name,) if len(freedoms) == 1 else tuple(f"{self.name}.{f}" for f in freedoms)
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A named dimension: a value, or an open range (None: unbounded) in which it is kept symbolic."""
+
+    name: str
+    value: sympy.Expr | None = None
+    low: sympy.Expr | None = None
+    high: sympy.Expr | None = None
+
+
+@dataclass(frozen=True)
+class Twist:
+    """Output: components of a link's twist, of `wx wy wz vx vy vz` (planar `w vx vy`).
+
+    The velocity is that of the link's point `point`.  All components are the full twist.
+    """
+
+    link: str
+    point: str
+    components: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class PointVelocity:
+    """Output: components `x y z` of the velocity of a link's point."""
+
+    link: str
+    point: str
+    components: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class JointRate:
+    """Output: the rate of one freedom, by its column label (`A` or `A.slide`)."""
+
+    column: str
+
+
+Output = Twist | PointVelocity | JointRate
+
+
+@dataclass(frozen=True)
+class Limit:
+    """Joint limits or a bound on a named expression: low <= expression <= high (None: unbounded).
+
+    expression: SymPy, in the configuration variables and the coordinates of named points
+    (`A.x`), see `kinematics`.
+    """
+
+    expression: sympy.Expr
+    low: sympy.Expr | None = None
+    high: sympy.Expr | None = None
+
+
+@dataclass(frozen=True)
+class Exclusion:
+    """A part of configuration space that is taken out: where two named points of space coincide (`kind`
+    "coincide", "leg folded"), or where an expression vanishes ("zero")."""
+
+    kind: str
+    points: tuple[str, ...] = ()
+    expression: sympy.Expr | None = None
+    words: str = ""
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    """A mechanism, its dimensions, inputs and outputs; nothing is computed on construction.
+
+    inputs: column labels of the active freedoms (`Joint.columns`).
+    mobility: n as stated by the author, or None to take the number of inputs.
+    formulation: "auto", "planar", "joint" or "natural", see `kinematics`.
+    source: where it is published; origin: the file it was read from.
+    """
+
+    name: str
+    space: Space
+    ground: str
+    links: tuple[Link, ...]
+    joints: tuple[Joint, ...]
+    inputs: tuple[str, ...]
+    outputs: tuple[Output, ...]
+    parameters: tuple[Parameter, ...] = ()
+    limits: tuple[Limit, ...] = ()
+    exclusions: tuple[Exclusion, ...] = ()
+    mobility: int | None = None
+    formulation: str = "auto"
+    title: str = ""
+    description: str = ""
+    source: str = ""
+    origin: str = ""
+
+    def __repr__(self) -> str:
+        return f"Mechanism({self.name!r}, {len(self.links)} links, {len(self.joints)} joints)"
+
+    def link(self, name: str) -> Link:
+        """The link of this name; raises `KeyError`."""
+        return next(link for link in self.links if link.name == name)
+
+    def joint(self, name: str) -> Joint:
+        """The joint of this name; raises `KeyError`."""
+        return next(joint for joint in self.joints if joint.name == name)
+
+    @cached_property
+    def graph(self) -> networkx.MultiGraph:
+        """Links as nodes, joints as edges keyed by joint name, each edge with its `Joint` as data `joint`."""
+        graph = networkx.MultiGraph()
+        graph.add_nodes_from(link.name for link in self.links)
+        for joint in self.joints:
+            graph.add_edge(joint.first, joint.second, key=joint.name, joint=joint)
+        return graph
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """The labels of all joint freedoms, in order: the columns of L after the output's."""
+        return tuple(c for joint in self.joints for c in joint.columns)
+
+    @property
+    def N(self) -> int:
+        """The number of 1-DOF joints, each freedom counted."""
+        return len(self.columns)
+
+    @property
+    def n(self) -> int:
+        """The mobility."""
+        return len(self.inputs) if self.mobility is None else self.mobility

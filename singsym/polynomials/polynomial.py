@@ -1,0 +1,280 @@
+"""A polynomial over Q in the named variables of a ring, on FLINT's `fmpq_mpoly`.
+
+Source: FLINT (https://flintlib.org), through python-flint.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, Union
+
+from flint import fmpq, fmpq_mpoly, fmpz, fmpz_mpoly
+
+if TYPE_CHECKING:
+    from singsym.polynomials.ring import Ring
+
+Rational = int | Fraction | fmpz | fmpq
+Operand = Union["Polynomial", int, Fraction, fmpz, fmpq]
+
+
+def as_fmpq(number: Rational) -> fmpq:
+    """The FLINT rational equal to an `int`, `Fraction`, `fmpz` or `fmpq`.
+
+    >>> as_fmpq(Fraction(1, 2))
+    1/2
+    """
+    if isinstance(number, Fraction):
+        return fmpq(number.numerator, number.denominator)
+    return fmpq(number)
+
+
+class Polynomial:
+    """An immutable element of a `Ring`: hashable, picklable, compared by value.
+
+    Arithmetic accepts ints, Fractions and FLINT rationals beside polynomials of the same ring.
+    A polynomial of another ring raises `ValueError`; convert it with `ring.convert` first.
+
+    >>> from singsym.polynomials import Ring
+    >>> x, y = Ring(("x", "y")).gens
+    >>> (x + y) * (x - y)
+    x^2 - y^2
+    >>> (x**2 - y**2).factors()
+    [(x - y, 1), (x + y, 1)]
+    """
+
+    __slots__ = ("_hash", "ring", "value")
+
+    ring: Ring
+    value: fmpq_mpoly
+    _hash: int
+
+    def __init__(self, ring: Ring, value: fmpq_mpoly) -> None:
+        object.__setattr__(self, "ring", ring)
+        object.__setattr__(self, "value", value)
+        object.__setattr__(self, "_hash", 0)
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(f"a Polynomial is immutable: {name} cannot be set")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        terms = tuple((m, int(c.p), int(c.q)) for m, c in self.terms())
+        return _rebuild, (self.ring, terms)
+
+    # -- arithmetic ------------------------------------------------------------------------------
+
+    def _operand(self, other: Operand) -> fmpq_mpoly | fmpq:
+        if isinstance(other, Polynomial):
+            if other.ring is not self.ring and other.ring != self.ring:
+                raise ValueError(
+                    f"polynomials of different rings, {self.ring!r} and {other.ring!r}: "
+                    "convert one with ring.convert"
+                )
+            return other.value
+        return as_fmpq(other)
+
+    def __add__(self, other: Operand) -> Polynomial:
+        return Polynomial(self.ring, self.value + self._operand(other))
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Operand) -> Polynomial:
+        return Polynomial(self.ring, self.value - self._operand(other))
+
+    def __rsub__(self, other: Operand) -> Polynomial:
+        return Polynomial(self.ring, self._operand(other) - self.value)
+
+    def __mul__(self, other: Operand) -> Polynomial:
+        return Polynomial(self.ring, self.value * self._operand(other))
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, number: Rational) -> Polynomial:
+        return Polynomial(self.ring, self.value * (1 / as_fmpq(number)))
+
+    def __neg__(self) -> Polynomial:
+        return Polynomial(self.ring, -self.value)
+
+    def __pow__(self, exponent: int) -> Polynomial:
+        return Polynomial(self.ring, self.value**exponent)
+
+    def exact_quotient(self, divisor: Polynomial) -> Polynomial:
+        """`self / divisor`; raises `ArithmeticError` where the division leaves a remainder."""
+        quotient, remainder = divmod(self.value, self._operand(divisor))
+        if remainder:
+            raise ArithmeticError(f"{divisor} does not divide {self}")
+        return Polynomial(self.ring, quotient)
+
+    def divides(self, other: Polynomial) -> bool:
+        """Whether `other` is a multiple of this polynomial."""
+        return not divmod(other.value, self.value)[1]
+
+    def gcd(self, other: Polynomial) -> Polynomial:
+        """The monic greatest common divisor."""
+        return Polynomial(self.ring, self.value.gcd(other.value))
+
+    # -- comparison ------------------------------------------------------------------------------
+
+    def __eq__(self, other: object) -> bool:
+        if isinstance(other, Polynomial):
+            return self.ring == other.ring and bool(self.value == other.value)
+        if isinstance(other, (int, Fraction, fmpz, fmpq)):
+            return bool(self.value == as_fmpq(other))
+        return NotImplemented
+
+    def __hash__(self) -> int:
+        if not self._hash:
+            value = hash((self.ring.names, tuple((m, int(c.p), int(c.q)) for m, c in self.terms())))
+            object.__setattr__(self, "_hash", value or 1)
+        return self._hash
+
+    # -- inspection ------------------------------------------------------------------------------
+
+    def terms(self) -> list[tuple[tuple[int, ...], fmpq]]:
+        """Pairs (exponents, coefficient), leading term first."""
+        return list(self.value.terms())
+
+    def __len__(self) -> int:
+        return len(self.value)
+
+    @property
+    def is_zero(self) -> bool:
+        return bool(self.value.is_zero())
+
+    @property
+    def is_constant(self) -> bool:
+        return bool(self.value.is_constant())
+
+    @property
+    def constant(self) -> fmpq:
+        """The constant term."""
+        return self.value[(0,) * len(self.ring.names)]
+
+    @property
+    def total_degree(self) -> int:
+        """Total degree; -1 for the zero polynomial."""
+        return int(self.value.total_degree())
+
+    @property
+    def degrees(self) -> tuple[int, ...]:
+        """The degree in each variable of the ring (-1 throughout for zero)."""
+        return tuple(int(d) for d in self.value.degrees())
+
+    @property
+    def variables(self) -> tuple[str, ...]:
+        """The names that occur, in the order of the ring."""
+        return tuple(name for name, d in zip(self.ring.names, self.degrees, strict=True) if d > 0)
+
+    def degree(self, name: str) -> int:
+        """The degree in one variable."""
+        return self.degrees[self.ring.index(name)]
+
+    def coefficient(self, name: str, power: int) -> Polynomial:
+        """The coefficient of `name**power`, a polynomial in the other variables.
+
+        >>> from singsym.polynomials import Ring
+        >>> x, y = Ring(("x", "y")).gens
+        >>> (x * y + 3 * x + y**2).coefficient("x", 1)
+        y + 3
+        """
+        i = self.ring.index(name)
+        terms = {(*m[:i], 0, *m[i + 1 :]): c for m, c in self.terms() if m[i] == power}
+        return self.ring.from_dict(terms)
+
+    # -- operations ------------------------------------------------------------------------------
+
+    def derivative(self, name: str) -> Polynomial:
+        """The partial derivative by one variable."""
+        return Polynomial(self.ring, self.value.derivative(self.ring.index(name)))
+
+    def factors(self) -> list[tuple[Polynomial, int]]:
+        """Primitive irreducible factors over Q with multiplicities, constants dropped, sorted."""
+        found = [(Polynomial(self.ring, f).primitive(), k) for f, k in self.value.factor()[1]]
+        return sorted(found, key=lambda pair: (len(pair[0]), pair[0].total_degree, str(pair[0])))
+
+    def squarefree_part(self) -> Polynomial:
+        """The product of the distinct irreducible factors, primitive."""
+        product = self.ring.one
+        for factor, _ in self.value.factor_squarefree()[1]:
+            product = product * Polynomial(self.ring, factor)
+        return product.primitive()
+
+    def primitive(self) -> Polynomial:
+        """The multiple with coprime integer coefficients and a positive leading one."""
+        return Polynomial(self.ring, fmpq_mpoly(self.integer()))
+
+    def integer(self) -> fmpz_mpoly:
+        """The primitive integer multiple as FLINT's `fmpz_mpoly`, for engines."""
+        terms = self.terms()
+        if not terms:
+            return self.ring.integer_context.from_dict({})
+        denominator = fmpz(1)
+        for _, c in terms:
+            denominator = denominator.lcm(c.q)
+        content = fmpz(0)
+        cleared = {}
+        for m, c in terms:
+            cleared[m] = c.p * (denominator // c.q)
+            content = content.gcd(cleared[m])
+        if terms[0][1] < 0:
+            content = -content
+        return self.ring.integer_context.from_dict({m: c // content for m, c in cleared.items()})
+
+    def substitute(self, values: Mapping[str, Operand]) -> Polynomial:
+        """Replace variables by polynomials or rationals of the same ring, all at once.
+
+        >>> from singsym.polynomials import Ring
+        >>> x, y = Ring(("x", "y")).gens
+        >>> (x**2 + y).substitute({"x": y, "y": 1})
+        y^2 + 1
+        """
+        if not values:
+            return self
+        images = list(self.ring.context.gens())
+        for name, value in values.items():
+            image = self._operand(value)
+            images[self.ring.index(name)] = (
+                image if isinstance(image, fmpq_mpoly) else self.ring.context.constant(image)
+            )
+        return Polynomial(self.ring, self.value.compose(*images, ctx=self.ring.context))
+
+    def evaluate(self, values: Sequence[Any]) -> Any:
+        """The value at a point given in the order of the ring's names.
+
+        Works in any commutative arithmetic that mixes with ints: `float`, `complex`, `Fraction`,
+        `fmpq`, `arb`, `acb`, `mpmath` and NumPy arrays.  Coefficients enter as p/q.
+        """
+        total: Any = 0
+        powers: list[dict[int, Any]] = [{} for _ in values]
+        for exponents, c in self.terms():
+            term: Any = None
+            for i, e in enumerate(exponents):
+                if e:
+                    power = powers[i].get(e)
+                    if power is None:
+                        power = values[i]
+                        for _ in range(e - 1):
+                            power = power * values[i]
+                        powers[i][e] = power
+                    term = power if term is None else term * power
+            p, q = int(c.p), int(c.q)
+            if term is None:
+                term = values[0] * 0 + p if values else p
+            elif p != 1:
+                term = term * p
+            if q != 1:
+                term = term / q
+            total = term if isinstance(total, int) and total == 0 else total + term
+        return total
+
+    # -- display ---------------------------------------------------------------------------------
+
+    def __repr__(self) -> str:
+        return str(self.value)
+
+    def __bool__(self) -> bool:
+        return not self.is_zero
+
+
+def _rebuild(ring: Ring, terms: tuple[tuple[tuple[int, ...], int, int], ...]) -> Polynomial:
+    return ring.from_dict({m: fmpq(p, q) for m, p, q in terms})
