@@ -41,7 +41,7 @@ class JointKind(StrEnum):
 
     @property
     def freedoms(self) -> tuple[str, ...]:
-        """The joint's freedoms: R, H rotate; P slides; C both; U about its two axes; S x, y, z; E x, y, angle."""
+        """R, H: a rotation; P: a slide; C: both; U: about its two axes; S: about x, y, z; E: x, y, angle."""
         return {
             "R": ("angle",),
             "P": ("slide",),
@@ -75,7 +75,6 @@ class Joint:
     axes: the name, in each link, of the joint's direction: R, P, H, C the axis (the same direction of
         space in both); U the first axis in `first` and the second in `second`, at right angles;
         E the normal; S and planar R none.
-    zero: P, and the frames of R/H/C where given: none is needed, see `kinematics`.
     pitch: H only, length per radian.
     Joints P and E keep what rotation they forbid as it is when the two links' frames are parallel.
     """

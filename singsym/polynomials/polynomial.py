@@ -40,7 +40,7 @@ class Polynomial:
     >>> (x + y) * (x - y)
     x^2 - y^2
     >>> (x**2 - y**2).factors()
-    [(x - y, 1), (x + y, 1)]
+    [(x + y, 1), (x - y, 1)]
     """
 
     __slots__ = ("_hash", "ring", "value")

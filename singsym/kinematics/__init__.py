@@ -1,0 +1,1 @@
+"""From a mechanism to its loop equations and its velocity equation."""

@@ -1,0 +1,75 @@
+"""What a formulation yields: configuration variables, loop equations, and where every joint is.
+
+Source: Zlatanov, Fenton, Benhabib (1998), section 2.4, the loop equations I(q) = 0 and the feasible set.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from singsym.polynomials import Polynomial, Ring
+
+Coordinates = tuple[Polynomial, ...]
+
+
+@dataclass(frozen=True)
+class ConfigurationSpace:
+    """Configurations as the real zeros of `equations`, cut down to the feasible set Omega.
+
+    equations: I(q) = 0, with c^2 + s^2 - 1 of every angle and the relations of the ring's constants.
+    exclusions: of each tuple, not all polynomials may vanish ("leg not folded").
+    positive, nonnegative: p > 0, p >= 0 (ranges of parameters, joint limits).
+    parameters: the ring's names that are dimensions and not configuration variables.
+    points: coordinates of the named points of space, 2 (planar) or 3.
+    directions: components of the named axes, in the fixed frame.
+    """
+
+    ring: Ring
+    equations: tuple[Polynomial, ...]
+    exclusions: tuple[tuple[Polynomial, ...], ...] = ()
+    positive: tuple[Polynomial, ...] = ()
+    nonnegative: tuple[Polynomial, ...] = ()
+    parameters: tuple[str, ...] = ()
+    points: Mapping[str, Coordinates] = field(default_factory=dict)
+    directions: Mapping[str, Coordinates] = field(default_factory=dict)
+    formulation: str = ""
+
+    @property
+    def variables(self) -> tuple[str, ...]:
+        """The configuration variables: the ring's names without parameters and constants."""
+        fixed = {*self.parameters, *(c.name for c in self.ring.constants)}
+        return tuple(name for name in self.ring.names if name not in fixed)
+
+
+@dataclass(frozen=True)
+class JointValue:
+    """A joint's value as polynomials: (numerator of cosine, of sine, common denominator), or a length.
+
+    For an angle `cosine/scale`, `sine/scale` with `scale` positive on the feasible set; for a slide `length`.
+    """
+
+    cosine: Polynomial | None = None
+    sine: Polynomial | None = None
+    scale: Polynomial | None = None
+    length: Polynomial | None = None
+
+
+@dataclass(frozen=True)
+class Placement:
+    """Where everything is, as polynomials in the configuration variables.
+
+    screws: column label -> joint screw of `second` relative to `first`, in the fixed frame at
+        its origin: planar (w, vx, vy), spherical (wx, wy, wz), spatial (wx, wy, wz, vx, vy, vz).  A pin at
+        (x, y) is (1, y, -x).  A screw may be scaled by a factor that is nonzero on the feasible set.
+    link_points: (link, point) -> coordinates, for every point that an output or a figure needs.
+    idle_spins: pairs (S joint name, direction) along which a link between two spherical joints would spin
+        idly; velocity.py adds the row direction . (spin of that joint) = 0 for each.
+    values: column label -> the joint's value, where the formulation can tell it.
+    """
+
+    space: ConfigurationSpace
+    screws: Mapping[str, Coordinates]
+    link_points: Mapping[tuple[str, str], Coordinates]
+    idle_spins: tuple[tuple[str, Coordinates], ...] = ()
+    values: Mapping[str, JointValue] = field(default_factory=dict)
