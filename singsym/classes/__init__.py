@@ -1,0 +1,1 @@
+"""Singularity types, the 21 classes, and the classification of a mechanism's configurations."""
