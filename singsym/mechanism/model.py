@@ -76,6 +76,8 @@ class Joint:
         space in both); U the first axis in `first` and the second in `second`, at right angles;
         E the normal; S and planar R none.
     pitch: H only, length per radian.
+    reference: R, H, C: an axis of each link, at right angles to the joint's, that coincide at angle zero;
+        None: angle zero is where the two links' frames are as parallel as the joint allows.
     Joints P and E keep what rotation they forbid as it is when the two links' frames are parallel.
     """
 
@@ -86,6 +88,7 @@ class Joint:
     at: tuple[str, str]
     axes: tuple[str, str] | None = None
     pitch: sympy.Expr | None = None
+    reference: tuple[str, str] | None = None
 
     @property
     def columns(self) -> tuple[str, ...]:
@@ -145,8 +148,8 @@ Output = Twist | PointVelocity | JointRate
 class Limit:
     """Joint limits or a bound on a named expression: low <= expression <= high (None: unbounded).
 
-    expression: SymPy, in the configuration variables and the coordinates of named points
-    (`A.x`), see `kinematics`.
+    expression: SymPy, polynomial in the symbols `A.x` (a coordinate of a named point), `cos(A)`, `sin(A)`
+        (of a joint's angle), `length(P)` (of its slide) and the parameters, which `kinematics` replaces.
     """
 
     expression: sympy.Expr
