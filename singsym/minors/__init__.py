@@ -1,0 +1,1 @@
+"""Determinants, minors, block forms and ranks of polynomial matrices."""

@@ -1,0 +1,133 @@
+"""Block triangular and block diagonal forms of a matrix, from the places of its zeros alone.
+
+Source: A. L. Dulmage, N. S. Mendelsohn, "Coverings of bipartite graphs" (1958); A. Pothen, C.-J. Fan,
+"Computing the block triangular form of a sparse matrix" (1990).  Matching and components by networkx.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import networkx
+
+from singsym.polynomials import PolynomialMatrix
+
+Block = tuple[tuple[int, ...], tuple[int, ...]]
+
+
+@dataclass(frozen=True)
+class BlockForm:
+    """The Dulmage-Mendelsohn decomposition: with rows and columns in this order the matrix is block upper
+    triangular, with the wide part first, then the square blocks, then the tall part.
+
+    wide: rows and columns of the part with more columns than rows (a maximum matching covers the rows).
+    square: the diagonal blocks, each square and not to be split further.
+    tall: the part with more rows than columns (the matching covers the columns).
+    """
+
+    wide: Block
+    square: tuple[Block, ...]
+    tall: Block
+
+    @property
+    def is_square(self) -> bool:
+        """Whether there is only the square part: the matrix is square and has a nonzero transversal."""
+        return not (self.wide[1] or self.tall[0])
+
+    @property
+    def structural_rank(self) -> int:
+        """The size of a maximum matching: the largest rank that the zeros allow."""
+        return len(self.wide[0]) + sum(len(rows) for rows, _ in self.square) + len(self.tall[1])
+
+    @property
+    def row_order(self) -> tuple[int, ...]:
+        """The permutation of the rows."""
+        return (*self.wide[0], *(i for rows, _ in self.square for i in rows), *self.tall[0])
+
+    @property
+    def column_order(self) -> tuple[int, ...]:
+        """The permutation of the columns."""
+        return (*self.wide[1], *(j for _, columns in self.square for j in columns), *self.tall[1])
+
+
+def _nonzeros(matrix: PolynomialMatrix) -> list[tuple[int, int]]:
+    return [(i, j) for i, row in enumerate(matrix.rows) for j, entry in enumerate(row) if entry]
+
+
+def block_triangular(matrix: PolynomialMatrix) -> BlockForm:
+    """The Dulmage-Mendelsohn decomposition of a matrix of any shape.
+
+    The square blocks are the strongly connected components of the graph on the rows in which row i points
+    to the row matched to each column where row i has an entry.
+
+    >>> from singsym.polynomials import Ring
+    >>> x, y = Ring(("x", "y")).gens
+    >>> block_triangular(PolynomialMatrix.of(x.ring, [[0, y], [x, 1]])).square
+    (((1,), (0,)), ((0,), (1,)))
+    """
+    height, width = matrix.shape
+    graph = networkx.Graph()
+    row_nodes = [("row", i) for i in range(height)]
+    column_nodes = [("column", j) for j in range(width)]
+    graph.add_nodes_from(row_nodes)
+    graph.add_nodes_from(column_nodes)
+    graph.add_edges_from((("row", i), ("column", j)) for i, j in _nonzeros(matrix))
+    matching = networkx.bipartite.hopcroft_karp_matching(graph, top_nodes=row_nodes)
+    tall = _alternating(graph, matching, [r for r in row_nodes if r not in matching])
+    wide = _alternating(graph, matching, [c for c in column_nodes if c not in matching])
+    middle = networkx.DiGraph()
+    for row in row_nodes:
+        if row in tall or row in wide:
+            continue
+        middle.add_node(row)
+        middle.add_edges_from(
+            (row, matching[column])
+            for column in graph[row]
+            if column not in wide and column not in tall and matching[column] != row
+        )
+    condensed = networkx.condensation(middle)
+    square = []
+    keys = {c: min(i for _, i in condensed.nodes[c]["members"]) for c in condensed}
+    for component in networkx.lexicographical_topological_sort(condensed, key=keys.__getitem__):
+        members = sorted(condensed.nodes[component]["members"])
+        columns = sorted(matching[row][1] for row in members)
+        square.append((tuple(i for _, i in members), tuple(columns)))
+    return BlockForm(_block(wide), tuple(square), _block(tall))
+
+
+def _alternating(
+    graph: networkx.Graph, matching: dict[tuple[str, int], tuple[str, int]], start: list[tuple[str, int]]
+) -> set[tuple[str, int]]:
+    """The nodes that alternating paths reach from unmatched nodes of one side."""
+    seen = set(start)
+    stack = list(start)
+    while stack:
+        for neighbour in graph[stack.pop()]:
+            if neighbour not in seen:
+                seen.add(neighbour)
+                partner = matching[neighbour]
+                if partner not in seen:
+                    seen.add(partner)
+                    stack.append(partner)
+    return seen
+
+
+def _block(nodes: set[tuple[str, int]]) -> Block:
+    return tuple(sorted(i for k, i in nodes if k == "row")), tuple(
+        sorted(j for k, j in nodes if k == "column")
+    )
+
+
+def diagonal_blocks(matrix: PolynomialMatrix) -> tuple[Block, ...]:
+    """The connected components of rows and columns, without zero rows and zero columns.
+
+    Outside the blocks the matrix is zero, so its rank is the sum of theirs.
+
+    >>> from singsym.polynomials import Ring
+    >>> x, y = Ring(("x", "y")).gens
+    >>> diagonal_blocks(PolynomialMatrix.of(x.ring, [[x, 0, 0], [0, y, 1], [0, 0, 0]]))
+    (((0,), (0,)), ((1,), (1, 2)))
+    """
+    graph = networkx.Graph()
+    graph.add_edges_from((("row", i), ("column", j)) for i, j in _nonzeros(matrix))
+    return tuple(sorted(_block(nodes) for nodes in networkx.connected_components(graph)))
