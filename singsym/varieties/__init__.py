@@ -1,0 +1,1 @@
+"""Solution sets: decomposition, constructible sets, and real points, dimensions and curves."""

@@ -1,0 +1,197 @@
+"""Interval arithmetic: polynomials on boxes, ranks from below, and the Krawczyk test.
+
+Source: Krawczyk, Computing 4 (1969) 187-201; Neumaier, Interval Methods for Systems of Equations (1990), 5.1;
+balls by Arb (https://arblib.org), through python-flint.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from fractions import Fraction
+from itertools import combinations
+
+from flint import arb, arb_mat, ctx, fmpq
+
+from singsym.polynomials import Polynomial
+
+Box = tuple[arb, ...]
+
+
+@contextmanager
+def at_precision(bits: int) -> Iterator[None]:
+    """Arb works with so many bits inside; python-flint keeps the precision per process."""
+    before = ctx.prec
+    ctx.prec = bits
+    try:
+        yield
+    finally:
+        ctx.prec = before
+
+
+def ball(number: Fraction | int) -> arb:
+    """The ball around a rational, at the current precision.
+
+    >>> ball(Fraction(1, 2))
+    0.500000000000000
+    """
+    number = Fraction(number)
+    return arb(fmpq(number.numerator, number.denominator))
+
+
+def exact_bounds(value: arb) -> tuple[Fraction, Fraction]:
+    """The rational ends of a ball.
+
+    >>> exact_bounds(ball(Fraction(1, 2)))
+    (Fraction(1, 2), Fraction(1, 2))
+    """
+    middle, radius = (_dyadic(part) for part in (value.mid(), value.rad()))
+    return middle - radius, middle + radius
+
+
+def _dyadic(exact: arb) -> Fraction:
+    mantissa, exponent = exact.man_exp()
+    return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
+
+
+def evaluate(polynomial: Polynomial, box: Sequence[arb]) -> arb:
+    """A ball that holds the values of a polynomial on a box given in the order of the ring's names.
+
+    Powers are products: in Arb the square of a ball around 0 is not a number.
+
+    >>> from singsym.polynomials import Ring
+    >>> x, y = Ring(("x", "y")).gens
+    >>> evaluate(x * y + 1, (arb(2), arb(3)))
+    7.00000000000000
+    """
+    value = polynomial.evaluate(list(box))
+    return value if isinstance(value, arb) else arb(value)
+
+
+def sign_on_box(polynomial: Polynomial, box: Sequence[arb]) -> int:
+    """The sign of a polynomial on a whole box; 0 where the box does not decide it."""
+    value = evaluate(polynomial, box)
+    return int(value > 0) - int(value < 0)
+
+
+def jacobian(equations: Sequence[Polynomial], names: Sequence[str]) -> list[list[Polynomial]]:
+    """The partial derivatives, one row an equation."""
+    return [[f.derivative(name) for name in names] for f in equations]
+
+
+def rank_at_least(matrix: Sequence[Sequence[arb]], rank: int) -> bool:
+    """Whether some minor of this size is proven nonzero for every choice from the balls.
+
+    Rows and columns are chosen by pivoting on midpoints; the minor is proven by an interval elimination after
+    preconditioning, so that a `True` is a proof and a `False` is nothing.
+    """
+    if rank == 0:
+        return True
+    if not matrix or min(len(matrix), len(matrix[0])) < rank:
+        return False
+    rows, columns = pivots([[float(e.mid()) for e in row] for row in matrix], rank)
+    if len(rows) < rank:
+        return False
+    return regular([[matrix[i][j] for j in columns] for i in rows])
+
+
+def regular(matrix: Sequence[Sequence[arb]]) -> bool:
+    """Whether a square matrix of balls is proven regular: an approximate inverse times it is near 1."""
+    size = len(matrix)
+    inverse = _approximate_inverse(matrix)
+    if inverse is None:
+        return False
+    product = inverse * arb_mat([list(row) for row in matrix])
+    for i in range(size):
+        total = abs(product[i, i] - 1)
+        for j in range(size):
+            if j != i:
+                total = total + abs(product[i, j])
+        if not total < 1:
+            return False
+    return True
+
+
+def pivots(matrix: Sequence[Sequence[float]], rank: int) -> tuple[list[int], list[int]]:
+    """Rows and columns of a well-conditioned minor, by complete pivoting; shorter lists if there is none."""
+    work = [list(row) for row in matrix]
+    rows: list[int] = []
+    columns: list[int] = []
+    free_rows, free_columns = list(range(len(work))), list(range(len(work[0]) if work else 0))
+    for _ in range(rank):
+        size, i, j = max(
+            ((abs(work[i][j]), i, j) for i in free_rows for j in free_columns), default=(0.0, -1, -1)
+        )
+        if not size > 0:
+            break
+        rows.append(i)
+        columns.append(j)
+        free_rows.remove(i)
+        free_columns.remove(j)
+        for k in free_rows:
+            factor = work[k][j] / work[i][j]
+            if factor:
+                work[k] = [a - factor * b for a, b in zip(work[k], work[i], strict=True)]
+    return rows, columns
+
+
+def some_minor_nonzero(matrix: Sequence[Sequence[arb]], size: int) -> bool:
+    """As `rank_at_least`, trying every minor; for small matrices that pivoting fails on."""
+    if rank_at_least(matrix, size):
+        return True
+    if not matrix:
+        return size == 0
+    for rows in combinations(range(len(matrix)), size):
+        for columns in combinations(range(len(matrix[0])), size):
+            if regular([[matrix[i][j] for j in columns] for i in rows]):
+                return True
+    return False
+
+
+def _approximate_inverse(matrix: Sequence[Sequence[arb]]) -> arb_mat | None:
+    try:
+        inverse = arb_mat([[arb(e.mid()) for e in row] for row in matrix]).inv()
+    except ZeroDivisionError:
+        return None
+    return arb_mat([[arb(inverse[i, j].mid()) for j in range(len(matrix))] for i in range(len(matrix))])
+
+
+def krawczyk(
+    equations: Sequence[Polynomial], names: Sequence[str], box: Sequence[arb], radius: Fraction
+) -> Box | None:
+    """A box proven to hold exactly one zero of a square system in `names`, the other coordinates held fixed.
+
+    box: in the order of the ring's names, midpoints near a zero; the unknowns are widened by `radius`.
+    Returns the whole box with the sharpened unknowns, or `None` where the test proves nothing.  Where fixed
+    coordinates are balls there is one zero for each choice from them.
+    """
+    if len(equations) != len(names):
+        raise ValueError(f"{len(equations)} equations in {len(names)} unknowns: a square system is expected")
+    if not equations:
+        return tuple(box)
+    ring = equations[0].ring
+    places = [ring.index(name) for name in names]
+    middle = list(box)
+    wide = list(box)
+    width = ball(radius)
+    for k in places:
+        middle[k] = arb(box[k].mid())
+        wide[k] = middle[k] + arb(0, width.upper())
+    derivatives = jacobian(equations, names)
+    slopes = [[evaluate(d, wide) for d in row] for row in derivatives]
+    inverse = _approximate_inverse(slopes)
+    if inverse is None:
+        return None
+    values = arb_mat([[evaluate(f, middle)] for f in equations])
+    shift = inverse * values
+    defect = inverse * arb_mat(slopes)
+    offsets = [wide[k] - middle[k] for k in places]
+    result = list(box)
+    for i, k in enumerate(places):
+        total = middle[k] - shift[i, 0]
+        for j in range(len(places)):
+            total = total - (defect[i, j] - (1 if i == j else 0)) * offsets[j]
+        if not wide[k].contains_interior(total):
+            return None
+        result[k] = total
+    return tuple(result)

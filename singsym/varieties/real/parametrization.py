@@ -1,0 +1,241 @@
+"""The points of a zero-dimensional set as rational functions of the roots of one polynomial, proven exactly.
+
+Source: Rouillier, Appl. Algebra Eng. Commun. Comput. 9 (1999) 433-461 (rational univariate representation).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from math import isqrt, lcm
+from random import Random
+
+from flint import fmpz, fmpz_mat, fmpz_poly, nmod_mat, nmod_poly
+
+from singsym.polynomials import Polynomial, Ring
+from singsym.varieties.real.quotient import Algebra
+
+Check = Callable[[], None]
+_PRIME = 2**62 - 57
+
+
+@dataclass(frozen=True)
+class Parametrization:
+    """All points of a finite set: coordinate i is numerators[i] / denominator at the roots of minimal.
+
+    minimal is squarefree; all three are polynomials over Z, constant coefficient first.
+    """
+
+    ring: Ring
+    minimal: fmpz_poly
+    denominator: fmpz_poly
+    numerators: tuple[fmpz_poly, ...]
+
+    def image(self, polynomial: Polynomial) -> fmpz_poly:
+        """A multiple of `polynomial` at the points, by a power of the denominator and a nonzero integer."""
+        terms = polynomial.integer().terms()
+        degree = polynomial.total_degree
+        powers: list[list[fmpz_poly]] = [[fmpz_poly([1])] for _ in range(len(self.numerators) + 1)]
+        bases = (*self.numerators, self.denominator)
+        total = fmpz_poly([])
+        for exponents, coefficient in terms:
+            term = fmpz_poly([coefficient])
+            for i, e in enumerate((*exponents, degree - sum(exponents))):
+                while len(powers[i]) <= e:
+                    powers[i].append(powers[i][-1] * bases[i])
+                if e:
+                    term = term * powers[i][e]
+            total = total + term
+        return total
+
+    def vanishes(self, polynomial: Polynomial) -> bool:
+        """Whether `polynomial` is zero at every root of `minimal`: an exact division.
+
+        >>> t = fmpz_poly([-2, 0, 1])
+        >>> R = Ring(("x",))
+        >>> Parametrization(R, t, fmpz_poly([1]), (fmpz_poly([0, 1]),)).vanishes(R.gens[0] ** 2 - 2)
+        True
+        """
+        return polynomial.is_zero or divides(self.minimal, self.image(polynomial))
+
+
+def divides(divisor: fmpz_poly, dividend: fmpz_poly) -> bool:
+    """Whether a primitive integer polynomial divides another one over Q (then over Z, by Gauss's lemma)."""
+    lead = divisor.leading_coefficient()
+    if lead % _PRIME != 0 and nmod_poly(dividend, _PRIME) % nmod_poly(divisor, _PRIME):
+        return False
+    return bool((dividend // divisor) * divisor == dividend)
+
+
+# -- from the quotient algebra, modulo primes ----------------------------------------------------------
+
+
+def parametrize(
+    algebra: Algebra, equations: Sequence[Polynomial], *, seed: int = 1, check: Check = lambda: None
+) -> Parametrization | None:
+    """The points of an algebra by the roots of one polynomial, proven by substitution into `equations`.
+
+    Works modulo primes and reconstructs; the candidate is accepted when every equation vanishes on it and a
+    linear form takes as many values as the algebra's dimension: then no point is missing and none is wrong.
+    `None` where no linear form of several drawn takes so many values: the algebra is probably not reduced.
+    """
+    if algebra.dimension == 0:
+        return Parametrization(
+            algebra.ring, fmpz_poly([1]), fmpz_poly([1]), (fmpz_poly([]),) * len(algebra.matrices)
+        )
+    random = Random(seed)
+    for width in (2, 5, 30):
+        weights = [random.randint(-width, width) for _ in algebra.matrices]
+        if _image(_integral(algebra, weights), _PRIME) is not None:
+            return _reconstructed(algebra, weights, equations, check)
+    return None
+
+
+@dataclass(frozen=True)
+class _Integral:
+    """A linear form's matrix, 1, and the variables times 1, each with its denominator cleared."""
+
+    form: tuple[fmpz_mat, fmpz]
+    one: tuple[fmpz_mat, fmpz]
+    variables: tuple[tuple[fmpz_mat, fmpz], ...]
+
+
+def _integral(algebra: Algebra, weights: Sequence[int]) -> _Integral:
+    form = algebra.matrices[0] * weights[0]
+    for w, m in zip(weights[1:], algebra.matrices[1:], strict=True):
+        form = form + m * w
+    variables = tuple((m * algebra.one).numer_denom() for m in algebra.matrices)
+    return _Integral(form.numer_denom(), algebra.one.numer_denom(), variables)
+
+
+def _image(data: _Integral, prime: int) -> list[nmod_poly] | None:
+    """Minimal polynomial of the form and the variables' numerators over its derivative, modulo a prime.
+
+    `None` where the form does not generate the algebra modulo the prime, or not with a squarefree polynomial.
+    """
+    if any(d % prime == 0 for _, d in (data.form, data.one, *data.variables)):
+        return None
+
+    def modular(pair: tuple[fmpz_mat, fmpz]) -> nmod_mat:
+        return nmod_mat(pair[0], prime) * pow(int(pair[1]), -1, prime)
+
+    form, vector = modular(data.form), modular(data.one)
+    count = int(form.nrows())
+    columns = []
+    for _ in range(count):
+        columns.append([int(e) for e in vector.entries()])
+        vector = form * vector
+    krylov = nmod_mat(count, count, [columns[j][i] for i in range(count) for j in range(count)], prime)
+    targets = [[int(e) for e in v.entries()] for v in (vector, *map(modular, data.variables))]
+    width = len(targets)
+    right = nmod_mat(count, width, [targets[j][i] for i in range(count) for j in range(width)], prime)
+    try:
+        solved = krylov.solve(right)
+    except ZeroDivisionError:
+        return None
+    table = [[int(solved[i, j]) for i in range(count)] for j in range(width)]
+    minimal = nmod_poly([*(-c % prime for c in table[0]), 1], prime)
+    derivative = minimal.derivative()
+    if minimal.gcd(derivative).degree() > 0:
+        return None
+    return [minimal, *(nmod_poly(row, prime) * derivative % minimal for row in table[1:])]
+
+
+def _reconstructed(
+    algebra: Algebra, weights: Sequence[int], equations: Sequence[Polynomial], check: Check
+) -> Parametrization | None:
+    data = _integral(algebra, weights)
+    count = algebra.dimension
+    modulus, residues = 1, [0] * (count * (len(weights) + 1) + 1)
+    used, trial = 0, 1
+    previous: Parametrization | None = None
+    for prime in primes():
+        check()
+        image = _image(data, prime)
+        if image is None:
+            continue
+        flat = [int(c) for k, p in enumerate(image) for c in _padded(p, count + (k == 0))]
+        inverse = pow(modulus, -1, prime)
+        residues = [r + modulus * ((f - r) * inverse % prime) for r, f in zip(residues, flat, strict=True)]
+        modulus *= prime
+        used += 1
+        if used >= trial:
+            trial = used + max(1, used // 3)
+            candidate = _candidate(algebra.ring, residues, modulus, count)
+            if candidate is not None and _proven(candidate, weights, equations):
+                return candidate
+            if candidate is not None and candidate == previous:
+                raise ArithmeticError("the quotient algebra does not belong to the equations: a wrong basis")
+            previous = candidate
+    return None
+
+
+def _padded(polynomial: nmod_poly, length: int) -> list[int]:
+    coefficients = [int(c) for c in polynomial.coeffs()]
+    return coefficients + [0] * (length - len(coefficients))
+
+
+def _candidate(ring: Ring, residues: Sequence[int], modulus: int, count: int) -> Parametrization | None:
+    rationals = reconstruct(residues, modulus)
+    if rationals is None:
+        return None
+    numbers, _ = rationals
+    first = fmpz_poly(numbers[: count + 1])
+    content = first.content()
+    minimal = fmpz_poly([c // content for c in first.coeffs()])
+    numerators = [fmpz_poly(numbers[k : k + count]) for k in range(count + 1, len(numbers), count)]
+    # x_i = (N_i/d) / (m/d)' with the common denominator d cancelled
+    parts = [first.derivative(), *numerators]
+    shared = fmpz(0)
+    for p in parts:
+        shared = shared.gcd(p.content())
+    parts = [fmpz_poly([c // shared for c in p.coeffs()]) for p in parts]
+    return Parametrization(ring, minimal, parts[0], tuple(parts[1:]))
+
+
+def _proven(candidate: Parametrization, weights: Sequence[int], equations: Sequence[Polynomial]) -> bool:
+    """Whether the equations hold at all roots and the linear form of the coordinates is the root itself."""
+    minimal = candidate.minimal
+    if minimal.degree() > 0 and minimal.gcd(minimal.derivative()).degree() > 0:
+        return False
+    form = fmpz_poly([0, 1]) * candidate.denominator * -1
+    for w, n in zip(weights, candidate.numerators, strict=True):
+        form = form + n * w
+    return divides(minimal, form) and all(candidate.vanishes(f) for f in equations)
+
+
+def reconstruct(residues: Sequence[int], modulus: int) -> tuple[list[int], int] | None:
+    """Integers and one common denominator that are the residues modulo `modulus`, as small as it decides.
+
+    >>> reconstruct([(2 * pow(3, -1, 10007)) % 10007, 5], 10007)
+    ([2, 15], 3)
+    """
+    bound = isqrt(modulus // 2)
+    fractions: list[tuple[int, int]] = []
+    denominator = 1
+    for r in residues:
+        value = r * denominator % modulus
+        if value > modulus - bound:
+            value -= modulus
+        if abs(value) <= bound:
+            fractions.append((value, denominator))
+            continue
+        a, b, s, t = modulus, value, 0, 1
+        while b > bound:
+            q = a // b
+            a, b, s, t = b, a - q * b, t, s - q * t
+        if abs(t) > bound or denominator * abs(t) > modulus:
+            return None
+        denominator *= abs(t)
+        fractions.append((b if t > 0 else -b, denominator))
+    common = lcm(*(d for _, d in fractions)) if fractions else 1
+    return [n * (common // d) for n, d in fractions], common
+
+
+def primes() -> Iterator[int]:
+    """The primes below 2^62, from the largest down."""
+    candidate = 2**62 - 1
+    while True:
+        if fmpz(candidate).is_prime():
+            yield candidate
+        candidate -= 2
