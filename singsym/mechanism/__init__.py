@@ -1,1 +1,41 @@
-"""Mechanisms as data: model, file format, checks, library."""
+"""Mechanisms as data: model, file format, checks, library.
+
+Source: singsym's own; see `singsym new` for the format.
+"""
+
+from singsym.mechanism.checks import check
+from singsym.mechanism.fileformat import define, load, loads
+from singsym.mechanism.model import (
+    Exclusion,
+    Joint,
+    JointKind,
+    JointRate,
+    Limit,
+    Link,
+    Mechanism,
+    Parameter,
+    PointVelocity,
+    Space,
+    Twist,
+)
+from singsym.mechanism.problems import MechanismError, Problem
+
+__all__ = [
+    "Exclusion",
+    "Joint",
+    "JointKind",
+    "JointRate",
+    "Limit",
+    "Link",
+    "Mechanism",
+    "MechanismError",
+    "Parameter",
+    "PointVelocity",
+    "Problem",
+    "Space",
+    "Twist",
+    "check",
+    "define",
+    "load",
+    "loads",
+]

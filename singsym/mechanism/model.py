@@ -6,12 +6,16 @@ Source: Zlatanov, Fenton, Benhabib (1998), section 2; the data model is singsym'
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property
+from typing import Any
 
 import networkx
 import sympy
+
+from singsym.mechanism.expressions import expression
+from singsym.mechanism.problems import MechanismError, Problem
 
 Vector = tuple[sympy.Expr, ...]
 
@@ -229,3 +233,51 @@ class Mechanism:
     def n(self) -> int:
         """The mobility."""
         return len(self.inputs) if self.mobility is None else self.mobility
+
+    def with_parameters(self, **values: Any) -> Mechanism:
+        """The same mechanism with parameters set: numbers, text in the file's grammar, SymPy expressions.
+
+        A parameter that had a range keeps it, for `check` to compare.  Raises `MechanismError` for an
+        unknown name.  See `mechanism.load` for an example.
+        """
+        names = {parameter.name for parameter in self.parameters}
+        unknown = [name for name in values if name not in names]
+        if unknown:
+            known = f"one of {', '.join(sorted(names))}" if names else "nothing: it has no parameters"
+            raise MechanismError(Problem("parameters", name, known, file=self.origin) for name in unknown)
+        read = {k: expression(v, names, place=f"parameters.{k}", file=self.origin) for k, v in values.items()}
+        changed = tuple(replace(p, value=read.get(p.name, p.value)) for p in self.parameters)
+        return replace(self, parameters=changed)
+
+    @cached_property
+    def resolved(self) -> Mechanism:
+        """The same mechanism with every parameter that has a value replaced by it: kinematics starts here.
+
+        Raises `MechanismError` where parameters are defined by each other in a circle.
+        """
+        values = {sympy.Symbol(p.name): p.value for p in self.parameters if p.value is not None}
+        for _ in values:
+            values = {name: value.xreplace(values) for name, value in values.items()}
+        circular = sorted(str(name) for name, value in values.items() if value.free_symbols & values.keys())
+        if circular:
+            expected = "values that do not depend on each other in a circle"
+            raise MechanismError([Problem("parameters", ", ".join(circular), expected, file=self.origin)])
+        return self._replaced(values) if values else self
+
+    def _replaced(self, values: Mapping[sympy.Expr, sympy.Expr]) -> Mechanism:
+        def put(value: sympy.Expr | None) -> sympy.Expr | None:
+            return None if value is None else value.xreplace(values)
+
+        def vectors(named: Mapping[str, Vector]) -> dict[str, Vector]:
+            return {name: tuple(x.xreplace(values) for x in vector) for name, vector in named.items()}
+
+        return replace(
+            self,
+            links=tuple(replace(k, points=vectors(k.points), axes=vectors(k.axes)) for k in self.links),
+            joints=tuple(replace(j, pitch=put(j.pitch)) for j in self.joints),
+            parameters=tuple(
+                replace(p, low=put(p.low), high=put(p.high)) for p in self.parameters if p.value is None
+            ),
+            limits=tuple(Limit(t.expression.xreplace(values), put(t.low), put(t.high)) for t in self.limits),
+            exclusions=tuple(replace(e, expression=put(e.expression)) for e in self.exclusions),
+        )

@@ -1,0 +1,195 @@
+"""Mechanism files: TOML to `Mechanism` and back, and the same keys as Python arguments.
+
+Source: singsym's own format, in TOML (https://toml.io); the starter file explains it.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from singsym.mechanism.checks import check
+from singsym.mechanism.expressions import DecimalText, Quantities
+from singsym.mechanism.joints import read_inputs, read_joints
+from singsym.mechanism.library import names as library_names
+from singsym.mechanism.library import text as library_text
+from singsym.mechanism.links import read_links
+from singsym.mechanism.model import Mechanism, Output, Parameter, Space, Twist
+from singsym.mechanism.outputs import TWISTS, quantities, read_exclusions, read_limits, read_outputs
+from singsym.mechanism.problems import MechanismError, Problem, shorten
+from singsym.mechanism.reader import Reader, kind_of
+from singsym.mechanism.serial import read_dh
+
+MAX_SIZE = 1_000_000
+KEYS = (
+    "name", "title", "source", "description", "space", "ground", "formulation", "mobility", "inputs", "output",
+    "parameters", "links", "joints", "dh", "limits", "exclusions",
+)  # fmt: skip
+FORMULATIONS = ("auto", "planar", "spherical", "joint", "natural")
+
+
+def load(name: str | Path) -> Mechanism:
+    """The checked mechanism of a file, or of a name in the library.
+
+    Raises `MechanismError` with every problem, `FileNotFoundError` where there is no such file or name.
+
+    >>> hybrid = load("zlatanov-hybrid").with_parameters(a="3/2")
+    >>> hybrid.resolved.link("ground").points["B0"]
+    (3/2, 0, 0)
+    """
+    if str(name) in library_names():
+        return loads(library_text(str(name)), origin=f"{name}.toml")
+    path = Path(name)
+    if not path.is_file():
+        known = ", ".join(library_names())
+        raise FileNotFoundError(
+            f"no file and no mechanism of the library is called {name}; there are {known}"
+        )
+    if path.stat().st_size > MAX_SIZE:
+        found, expected = f"{path.stat().st_size} bytes", f"a mechanism file of at most {MAX_SIZE}"
+        raise MechanismError([Problem("file", found, expected, file=str(name))])
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except UnicodeDecodeError as error:
+        found = f"byte {error.object[error.start]:#x} at position {error.start}"
+        raise MechanismError([Problem("file", found, "text in UTF-8", file=str(name))]) from None
+    return loads(text, origin=str(name))
+
+
+def loads(text: str, origin: str = "") -> Mechanism:
+    """The checked mechanism that TOML text describes; `origin` names the file in messages.
+
+    >>> loads('''
+    ... inputs = ["A"]
+    ... output = { rate = "D" }
+    ... [links]
+    ... ground = { points = { A = [0, 0], D = [4, 0] } }
+    ... AB = 1
+    ... BC = "7/2"
+    ... CD = 3
+    ... [joints]
+    ... A = "R"
+    ... B = "R"
+    ... C = "R"
+    ... D = "R"
+    ... ''', origin="fourbar.toml")
+    Mechanism('fourbar', 4 links, 4 joints)
+    """
+    if len(text) > MAX_SIZE:
+        found, expected = f"{len(text)} characters", f"a mechanism file of at most {MAX_SIZE}"
+        raise MechanismError([Problem("file", found, expected, file=origin)])
+    try:
+        data = tomllib.loads(text, parse_float=DecimalText)
+    except tomllib.TOMLDecodeError as error:
+        advice = "see `singsym new` for an example"
+        raise MechanismError([Problem("file", f"no TOML: {error}", "TOML", advice, origin)]) from None
+    except (RecursionError, ValueError) as error:
+        # int() refuses more than 4300 digits, and the parser recurses on nested lists.
+        found = "lists nested too deep" if isinstance(error, RecursionError) else f"no TOML: {error}"
+        raise MechanismError([Problem("file", found, "TOML of a mechanism", file=origin)]) from None
+    return _checked(data, origin)
+
+
+def define(**keys: Any) -> Mechanism:
+    """The checked mechanism given by the keys of a file as arguments: numbers, Fractions, text, SymPy.
+
+    >>> define(name="arm", inputs=["A", "B"], output={"velocity": "C"},
+    ...        links={"ground": {"points": {"A": [0, 0]}}, "AB": 1, "BC": "1/2"}, joints={"A": "R", "B": "R"})
+    Mechanism('arm', 3 links, 2 joints)
+    """
+    return _checked(keys, "")
+
+
+def _checked(data: Mapping[str, Any], origin: str) -> Mechanism:
+    mechanism, problems = read(data, origin)
+    if not problems:
+        problems = check(mechanism)
+    if problems:
+        raise MechanismError(problems)
+    return mechanism
+
+
+def read(data: Mapping[str, Any], origin: str = "") -> tuple[Mechanism, tuple[Problem, ...]]:
+    """A mechanism from a file's tables, with the problems met in reading; see `check` for the others."""
+    reader = Reader(origin)
+    top = reader.table(data, "", KEYS)
+    words = {key: reader.text(top.get(key, ""), key) for key in ("name", "title", "source", "description")}
+    reader.space = _choice(top, "space", [s.value for s in Space], "planar", reader, Space)
+    formulation = _choice(top, "formulation", FORMULATIONS, "auto", reader, str)
+    parameters = _read_parameters(top.get("parameters", {}), reader)
+    if "dh" in top:
+        clash = [key for key in ("links", "joints") if key in top]
+        if clash or reader.space is not Space.SPATIAL:
+            found = f"dh with {' and '.join(clash)}" if clash else f"dh in a {reader.space} mechanism"
+            reader.report("dh", found, 'dh alone, with space = "spatial"')
+            reader.space = Space.SPATIAL
+        links, joints = read_dh(top["dh"], reader)
+    else:
+        links = read_links(top.get("links", {}), reader)
+        joints = read_joints(top.get("joints", {}), links, reader)
+    outputs: tuple[Output, ...] = ()
+    if "output" in top:
+        outputs = read_outputs(top["output"], links, reader)
+    elif "dh" in top and links:
+        outputs = (Twist(links[-1].name, "tool", TWISTS[reader.space]),)
+    mobility = top.get("mobility")
+    if mobility is not None and (isinstance(mobility, bool) or not isinstance(mobility, int) or mobility < 1):
+        reader.report("mobility", kind_of(mobility), "a whole number from 1")
+        mobility = None
+    known: Quantities = quantities(reader.space, links, joints)
+    mechanism = Mechanism(
+        name=words["name"] or Path(origin).stem or "mechanism",
+        space=reader.space,
+        ground=reader.text(top.get("ground", "ground"), "ground"),
+        links=links,
+        joints=joints,
+        inputs=read_inputs(top.get("inputs", []), joints, reader),
+        outputs=outputs,
+        parameters=parameters,
+        limits=read_limits(top.get("limits", {}), known, reader),
+        exclusions=read_exclusions(top.get("exclusions", {}), known, reader),
+        mobility=mobility,
+        formulation=formulation,
+        title=words["title"],
+        description=words["description"],
+        source=words["source"],
+        origin=origin,
+    )
+    return mechanism, tuple(reader.problems)
+
+
+def _choice(top: dict[str, Any], key: str, allowed: Any, default: str, reader: Reader, kind: Any) -> Any:
+    value = top.get(key, default)
+    if value not in allowed:
+        reader.report(key, kind_of(value), f"one of {', '.join(allowed)}")
+        value = default
+    return kind(value)
+
+
+def _read_parameters(value: Any, reader: Reader) -> tuple[Parameter, ...]:
+    """name = value, or { between = [low, high] } for a dimension that stays symbolic, or both."""
+    table = reader.table(value, "parameters")
+    reader.parameters = frozenset(reader.name(name, f"parameters.{name}") for name in table)
+    parameters = []
+    for name, entry in table.items():
+        place = f"parameters.{name}"
+        if not isinstance(entry, Mapping):
+            parameters.append(Parameter(name, reader.expression(entry, place)))
+            continue
+        read = reader.table(entry, place, ("value", "between", "above", "below"))
+        if not read or ("between" in read and ("above" in read or "below" in read)):
+            expected = "value = ..., between = [low, high], above = low or below = high"
+            reader.report(place, "no value and no range" if not read else shorten(entry), expected)
+        low, high = read.get("above"), read.get("below")
+        if "between" in read:
+            ends = reader.list(read["between"], f"{place}.between")
+            if len(ends) != 2:
+                reader.report(f"{place}.between", kind_of(read["between"]), "[low, high]")
+                ends = [None, None]
+            low, high = ends
+        bounds = [None if end is None else reader.expression(end, place) for end in (low, high)]
+        number = reader.expression(read["value"], f"{place}.value") if "value" in read else None
+        parameters.append(Parameter(name, number, *bounds))
+    return tuple(parameters)
