@@ -1,0 +1,89 @@
+"""Elimination with orders that every engine has: weights enter as powers of the eliminated variables.
+
+Source: D. Cox, J. Little, D. O'Shea, Ideals, Varieties, and Algorithms, 3.1 and 4.2 (Rabinowitsch).
+Lemma: x -> x^w maps Groebner bases to Groebner bases; if every basis element whose leading monomial is free
+of x is itself free of x, then these elements generate the elimination ideal, whatever the weight w.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+
+from singsym.elimination import engines
+from singsym.elimination.basis import canonical, groebner_basis
+from singsym.elimination.budget import Budget
+from singsym.elimination.memo import remember
+from singsym.elimination.substitution import connected, substitute_solved
+from singsym.polynomials import Polynomial, Ring
+
+_LARGEST_WEIGHT = 4000
+
+
+def without_zeros_of(
+    ring: Ring, generators: Sequence[Polynomial], polynomial: Polynomial
+) -> tuple[Ring, tuple[Polynomial, ...]]:
+    """The generators and 1 - t p in a ring with a new first variable t.
+
+    >>> x, = Ring(("x",)).gens
+    >>> without_zeros_of(x.ring, (x**2 - x,), x)[1]
+    (x^2 - x, -t0*x + 1)
+    """
+    name = next(n for k in range(len(ring.names) + 1) if (n := f"t{k}") not in ring.names)
+    larger = ring.with_names((name, *ring.names))
+    excluded = 1 - larger.gens[0] * larger.convert(polynomial)
+    return larger, (*(larger.convert(g) for g in generators), excluded)
+
+
+def eliminate(
+    ring: Ring, generators: Sequence[Polynomial], names: Collection[str], budget: Budget
+) -> tuple[Polynomial, ...]:
+    """Generators of the elements free of `names`; the ring's order is degrevlex.
+
+    Raises what `groebner_basis` raises.
+    """
+    generators = canonical(ring, generators)
+    key = (ring, frozenset(generators), frozenset(names))
+    return remember("eliminate", key, lambda: _eliminate(ring, generators, names, budget))
+
+
+def _eliminate(
+    ring: Ring, generators: Sequence[Polynomial], names: Collection[str], budget: Budget
+) -> tuple[Polynomial, ...]:
+    rest, _ = substitute_solved(generators, names)
+    kept: list[Polynomial] = []
+    for group in connected(rest):
+        inside = {n for p in group for n in p.variables}
+        if any(p.is_constant for p in group):
+            return (ring.one,)
+        if not inside & set(names):
+            kept += group
+        elif not inside <= set(names) or len(group) > 1:
+            kept += _eliminate_group(ring, group, inside & set(names), budget)
+    return canonical(ring, kept)
+
+
+def _eliminate_group(
+    ring: Ring, group: Sequence[Polynomial], names: Collection[str], budget: Budget
+) -> tuple[Polynomial, ...]:
+    positions = [ring.index(n) for n in names]
+    weight = max(2, max(p.total_degree for p in group))
+    while weight < _LARGEST_WEIGHT:
+        budget.check("elimination")
+        try:
+            basis = groebner_basis(ring, [_stretched(p, positions, weight) for p in group], budget)
+        except engines.EngineFailure:
+            break
+        free = [p for p in basis.polynomials if not any(p.terms()[0][0][i] for i in positions)]
+        if all(not p.degrees[i] > 0 for p in free for i in positions):
+            return tuple(free)
+        weight *= 4
+    variables = tuple(ring.gens[i] for i in positions)
+    return engines.solve(engines.Task("eliminate", ring, tuple(group), variables), budget).ideals[0]
+
+
+def _stretched(polynomial: Polynomial, positions: Sequence[int], weight: int) -> Polynomial:
+    """The polynomial with x^weight for each x at these positions."""
+    chosen = set(positions)
+    return polynomial.ring.from_dict(
+        {tuple(e * weight if i in chosen else e for i, e in enumerate(m)): c for m, c in polynomial.terms()}
+    )

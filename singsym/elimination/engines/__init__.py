@@ -1,0 +1,38 @@
+"""Engines: FLINT inside, msolve and Singular outside, SymPy for reference.
+
+Source: the registry, which says who does what.
+"""
+
+from singsym.elimination.engines.base import (
+    Engine,
+    EngineAnswer,
+    EngineFailure,
+    EngineUnavailable,
+    Task,
+)
+from singsym.elimination.engines.registry import (
+    EngineStatus,
+    allowed,
+    close,
+    has,
+    install,
+    solve,
+    status,
+    use,
+)
+
+__all__ = [
+    "Engine",
+    "EngineAnswer",
+    "EngineFailure",
+    "EngineStatus",
+    "EngineUnavailable",
+    "Task",
+    "allowed",
+    "close",
+    "has",
+    "install",
+    "solve",
+    "status",
+    "use",
+]

@@ -1,0 +1,190 @@
+"""msolve, one subprocess a task: Groebner bases, elimination, real boxes of zero-dimensional systems.
+
+Source: J. Berthomieu, C. Eder, M. Safey El Din, msolve: a library for solving polynomial systems, ISSAC 2021.
+"""
+
+from __future__ import annotations
+
+import re
+import tempfile
+from collections.abc import Sequence
+from fractions import Fraction
+from pathlib import Path
+
+from singsym.elimination.budget import Budget, current
+from singsym.elimination.engines.base import EngineAnswer, EngineFailure, EngineUnavailable, Task
+from singsym.elimination.engines.discovery import HOW_TO_GET, find_program, output_of
+from singsym.elimination.engines.process import Child
+from singsym.elimination.engines.text import read, used_variables, write
+from singsym.polynomials import Polynomial, Ring
+
+RealBox = dict[str, tuple[Fraction, Fraction]]
+
+_NUMBER = re.compile(r"(-?\d+)(?:\s*/\s*(\d+)(?:\s*\^\s*(\d+))?)?")
+_TOKEN = re.compile(r"\s*([\[\],:]|-?\d+(?:\s*/\s*\d+(?:\s*\^\s*\d+)?)?)")
+
+
+class NotZeroDimensional(ValueError):
+    """The system has infinitely many complex solutions."""
+
+
+class MsolveEngine:
+    """Big Groebner bases, and the default for real solving; its answers over Q are multi-modular."""
+
+    name = "msolve"
+
+    def available(self) -> bool:
+        return bool(self.path())
+
+    def can(self, task: Task) -> bool:
+        return task.kind in ("groebner", "eliminate") and task.ring.order == "degrevlex"
+
+    def run(self, task: Task, budget: Budget) -> EngineAnswer:
+        """The reduced Groebner basis, or that of the elimination ideal."""
+        generators = [p for p in task.generators if p]
+        used = used_variables(generators)
+        eliminated = [task.ring.index(v.variables[0]) for v in task.others]
+        first = [i for i in used if i in eliminated]
+        used = (*first, *(i for i in used if i not in eliminated))
+        if not used or len(first) == len(used):
+            unit = not used and bool(generators)
+            return EngineAnswer(((task.ring.one,) if unit else (),), self.name)
+        options = ["-g", "2", *(["-e", str(len(first))] if first else [])]
+        text = self._call(generators, used, options, budget, task.characteristic)
+        match = re.fullmatch(r"((?:#.*\n)*)\[(.*)\]:\s*", text, re.DOTALL)
+        shown = used[len(first) :] if first else used
+        if match is None:
+            raise EngineFailure(self.name, f"printed no basis: {text[:200]!r}")
+        if f"#variable order:       {', '.join(f'x{used.index(i) + 1}' for i in shown)}\n" not in match[1]:
+            raise EngineFailure(self.name, "changed the order of the variables")
+        try:
+            basis = [read(piece, task.ring, used) for piece in match[2].split(",") if piece.strip()]
+        except ValueError as error:
+            raise EngineFailure(self.name, str(error)) from None
+        return EngineAnswer((tuple(p.primitive() for p in basis if p),), self.name, "modular")
+
+    def real_boxes(
+        self,
+        equations: Sequence[Polynomial],
+        ring: Ring,
+        *,
+        bits: int = 128,
+        budget: Budget | None = None,
+    ) -> tuple[RealBox, ...]:
+        """Isolating boxes of the real solutions, rational intervals by variable name.
+
+        Raises `NotZeroDimensional`, `EngineFailure`, `BudgetExceeded`.  Completeness is msolve's word
+        ("no solution" rests on one prime): compare it with a count, or prove it apart.
+        """
+        generators = [p for p in equations if p]
+        missing = set(ring.names) - {name for p in generators for name in p.variables}
+        if any(p.is_constant for p in generators):
+            return ()
+        if missing:
+            raise NotZeroDimensional(f"{', '.join(sorted(missing))} in no equation")
+        used = tuple(range(len(ring.names)))
+        text = self._call(generators, used, ["-p", str(bits)], current(budget))
+        return _read_boxes(text, ring)
+
+    def _call(
+        self,
+        generators: Sequence[Polynomial],
+        used: Sequence[int],
+        options: Sequence[str],
+        budget: Budget,
+        characteristic: int = 0,
+    ) -> str:
+        program = self.path()
+        if not program:
+            raise EngineUnavailable(f"msolve is not there: {HOW_TO_GET}")
+        budget.check("msolve")
+        header = ",".join(f"x{k}" for k in range(1, len(used) + 1))
+        lines = ",\n".join(write(p, used) for p in generators)
+        with tempfile.TemporaryDirectory(prefix="singsym-") as directory:
+            source, target = Path(directory, "in.ms"), Path(directory, "out.ms")
+            source.write_text(f"{header}\n{characteristic}\n{lines}\n")
+            command = [program, "-f", str(source), "-o", str(target), *options]
+            child = Child(self.name, command)
+            child.end_input()
+            child.wait_exit(budget)
+            if not target.exists():
+                raise EngineFailure(self.name, "wrote no answer")
+            return target.read_text()
+
+    def version(self) -> str:
+        program = self.path()
+        if not program:
+            return ""
+        return output_of([program, "-V"]).strip() or "unknown"
+
+    def path(self) -> str:
+        return find_program("msolve", "SINGSYM_MSOLVE")
+
+    def cite(self) -> str:
+        return (
+            "J. Berthomieu, C. Eder, M. Safey El Din, msolve: a library for solving polynomial systems, "
+            "ISSAC 2021, 51-58, https://doi.org/10.1145/3452143.3465545"
+        )
+
+    def close(self) -> None:
+        """Nothing to end: each task has its own process."""
+
+
+def _fraction(text: str) -> Fraction:
+    match = _NUMBER.fullmatch(text)
+    if match is None:
+        raise EngineFailure("msolve", f"printed {text!r} where a number is expected")
+    numerator, denominator, power = match.groups()
+    return Fraction(int(numerator), int(denominator or 1) ** int(power or 1))
+
+
+def _tree(text: str) -> list[object]:
+    """The nested lists of msolve's output, numbers as text."""
+    stack: list[list[object]] = [[]]
+    position = 0
+    while position < len(text.rstrip()):
+        match = _TOKEN.match(text, position)
+        if match is None:
+            raise EngineFailure("msolve", f"printed rubbish: {text[position : position + 40]!r}")
+        position, token = match.end(), match[1]
+        if token == "[":
+            stack.append([])
+        elif token == "]":
+            if len(stack) < 2:
+                raise EngineFailure("msolve", "printed unbalanced brackets")
+            done = stack.pop()
+            stack[-1].append(done)
+        elif token not in ",:":
+            stack[-1].append(token)
+    if len(stack) != 1 or len(stack[0]) != 1:
+        raise EngineFailure("msolve", "printed half an answer")
+    top = stack[0][0]
+    if not isinstance(top, list) or not top:
+        raise EngineFailure("msolve", f"printed {text[:80]!r}")
+    return top
+
+
+def _read_boxes(text: str, ring: Ring) -> tuple[RealBox, ...]:
+    match _tree(text):
+        case ["-1"]:
+            return ()
+        case ["1", _, "-1", []]:
+            raise NotZeroDimensional("infinitely many complex solutions")
+        case ["0", ["1", [*boxes]]]:
+            return tuple(_box(box, ring) for box in boxes)
+    raise EngineFailure("msolve", f"printed {text[:80]!r}")
+
+
+def _box(entry: object, ring: Ring) -> RealBox:
+    if not isinstance(entry, list) or len(entry) != len(ring.names):
+        raise EngineFailure("msolve", "printed a point with a wrong number of coordinates")
+    box: RealBox = {}
+    for name, interval in zip(ring.names, entry, strict=True):
+        match interval:
+            case [str(low), str(high)]:
+                box[name] = (_fraction(low), _fraction(high))
+            case _:
+                raise EngineFailure("msolve", "printed a coordinate that is no interval")
+        if box[name][0] > box[name][1]:
+            raise EngineFailure("msolve", "printed an interval the wrong way round")
+    return box

@@ -1,0 +1,205 @@
+"""Which engine does which task, in which order, and what happens when one fails.
+
+Source: the measurements behind the routing: FLINT is fastest on small ideals, msolve on large bases.
+"""
+
+from __future__ import annotations
+
+import logging
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass, replace
+
+from singsym.elimination.budget import Budget, BudgetExceeded, current
+from singsym.elimination.engines import checks
+from singsym.elimination.engines.base import (
+    Engine,
+    EngineAnswer,
+    EngineFailure,
+    EngineUnavailable,
+    Task,
+)
+from singsym.elimination.engines.discovery import HOW_TO_GET, PACKAGES
+from singsym.elimination.engines.flint_engine import FlintEngine
+from singsym.elimination.engines.msolve import MsolveEngine
+from singsym.elimination.engines.singular import SingularEngine
+from singsym.elimination.engines.sympy_engine import SympyEngine
+
+log = logging.getLogger("singsym")
+
+flint = FlintEngine()
+msolve = MsolveEngine()
+singular = SingularEngine()
+sympy = SympyEngine()
+
+_ENGINES: dict[str, Engine] = {e.name: e for e in (flint, msolve, singular, sympy)}
+_DEFAULT = ("flint", "msolve", "singular")
+# seconds after which the next engine is asked, when there is a next one
+_PATIENCE = {"flint": 1.5, "msolve": 300.0, "singular": 300.0, "sympy": 300.0}
+_CHECK_SECONDS = 20.0
+
+_allowed: ContextVar[tuple[str, ...]] = ContextVar("engines", default=_DEFAULT)
+
+
+@contextmanager
+def use(*names: str) -> Iterator[None]:
+    """Only these engines, in this order, for the work inside; what they cannot do raises.
+
+    >>> with use("flint"):
+    ...     allowed()
+    ('flint',)
+    >>> with use("maple"):
+    ...     pass
+    Traceback (most recent call last):
+    ...
+    ValueError: no engine 'maple': there are flint, msolve, singular, sympy
+    """
+    for name in names:
+        if name not in _ENGINES:
+            raise ValueError(f"no engine {name!r}: there are {', '.join(_ENGINES)}")
+    token = _allowed.set(names or _DEFAULT)
+    try:
+        yield
+    finally:
+        _allowed.reset(token)
+
+
+def allowed() -> tuple[str, ...]:
+    """The names of the engines that may be asked here."""
+    return _allowed.get()
+
+
+def has(name: str) -> bool:
+    """Whether an engine is installed and allowed here."""
+    return name in allowed() and _ENGINES[name].available()
+
+
+def solve(task: Task, budget: Budget | None = None) -> EngineAnswer:
+    """The checked answer of the first allowed engine that has one.
+
+    Raises `EngineUnavailable` (nobody can), `BudgetExceeded`, or `EngineFailure` (all of them failed).
+    """
+    budget = current(budget)
+    candidates = [_ENGINES[n] for n in allowed() if _ENGINES[n].can(task) and _ENGINES[n].available()]
+    if not candidates:
+        raise EngineUnavailable(
+            f"{', '.join(allowed())} cannot do {task.kind!r} here; other engines: {HOW_TO_GET}"
+        )
+    failures = []
+    for position, engine in enumerate(candidates):
+        last = position == len(candidates) - 1
+        left = budget.remaining()
+        patience = (
+            None
+            if last
+            else _PATIENCE[engine.name]
+            if left is None
+            else min(_PATIENCE[engine.name], left / 2)
+        )
+        try:
+            return _checked(task, _run(engine, task, budget.part(patience)), budget)
+        except (EngineFailure, BudgetExceeded) as failure:
+            budget.check(task.kind)
+            failures.append(str(failure))
+            log.debug("%s", failure)
+    raise EngineFailure(", ".join(e.name for e in candidates), "; ".join(failures))
+
+
+def _run(engine: Engine, task: Task, budget: Budget) -> EngineAnswer:
+    """The engine's answer; a second try where its process was killed from outside."""
+    try:
+        return engine.run(task, budget)
+    except EngineFailure as failure:
+        log.debug("%s", failure)
+        return engine.run(task, budget)
+
+
+def _checked(task: Task, answer: EngineAnswer, budget: Budget) -> EngineAnswer:
+    """The answer, with a lower certainty where a part of the check could not be made."""
+    if not answer.ideals or task.kind != "groebner" or task.characteristic:
+        return answer
+    if answer.engine == flint.name:
+        return answer
+    complete = checks.check_basis(task, answer)
+    exact = flint.tiny(task)
+    if exact is not None:
+        if set(exact) != set(answer.ideals[0]):
+            raise EngineFailure(answer.engine, "returned a wrong basis: it differs from FLINT's")
+        return replace(answer, certainty="proven")
+    compared = checks.compare_modulo_prime(task, answer, lambda t: _second_opinion(t, answer.engine, budget))
+    return answer if complete and compared else replace(answer, certainty="modular")
+
+
+def _second_opinion(task: Task, asked: str, budget: Budget) -> EngineAnswer | None:
+    """The same task by another engine if there is one, else by the same engine once more."""
+    others: tuple[Engine, ...] = (msolve, singular)
+    order = sorted(others, key=lambda e: e.name == asked)
+    for engine in order:
+        if engine.can(task) and engine.available():
+            try:
+                return engine.run(task, budget.part(_CHECK_SECONDS))
+            except (EngineFailure, BudgetExceeded) as failure:
+                log.debug("no second opinion: %s", failure)
+    return None
+
+
+def close() -> None:
+    """End the processes of all engines; they start again when needed."""
+    for engine in _ENGINES.values():
+        engine.close()
+
+
+# -- what there is ---------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class EngineStatus:
+    """One row of `singsym engines`."""
+
+    name: str
+    found: bool
+    path: str
+    version: str
+    licence: str
+    used_for: str
+    how_to_get: str
+    cite: str
+
+
+_ABOUT = {
+    "flint": (
+        "LGPL-3.0",
+        "all arithmetic and factoring; Groebner bases of small ideals",
+        "comes with singsym",
+    ),
+    "msolve": ("GPL-2.0-or-later", "large Groebner bases, real points", HOW_TO_GET),
+    "singular": ("GPL-2.0 or GPL-3.0", "primary decomposition, elimination, second opinions", HOW_TO_GET),
+    "sympy": ("BSD-3-Clause", "the slow reference, only when named", "comes with singsym"),
+}
+
+
+def status() -> tuple[EngineStatus, ...]:
+    """Which engines there are, what each is used for, and how to get the missing ones."""
+    rows = []
+    for name, engine in _ENGINES.items():
+        version = engine.version() if engine.available() else ""
+        rows.append(
+            EngineStatus(name, engine.available(), engine.path(), version, *_ABOUT[name], engine.cite())
+        )
+    return tuple(rows)
+
+
+def install() -> None:
+    """Bring Singular and msolve into the running environment with pip, without their dependencies.
+
+    Raises `RuntimeError` with what pip said.  There are no wheels for Windows.
+    """
+    if sys.platform == "win32":
+        raise RuntimeError("no wheels of Singular and msolve for Windows: work without them")
+    command = [sys.executable, "-m", "pip", "install", "--no-deps", *PACKAGES]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise RuntimeError(f"{' '.join(command[1:])} failed:\n{done.stderr.strip() or done.stdout.strip()}")

@@ -1,0 +1,341 @@
+"""Ideals of polynomial rings over Q: Groebner bases, membership, dimension, elimination, decomposition.
+
+Source: D. Cox, J. Little, D. O'Shea, Ideals, Varieties, and Algorithms; engines as in `engines`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import reduce as fold
+
+from flint import fmpz_mpoly_vec
+
+from singsym.elimination import monomials
+from singsym.elimination.basis import Basis, canonical, groebner_basis
+from singsym.elimination.budget import Budget, current
+from singsym.elimination.eliminate import eliminate, without_zeros_of
+from singsym.elimination.engines.division import remainder
+from singsym.elimination.memo import is_known, remember
+from singsym.elimination.primes import minimal_primes
+from singsym.elimination.substitution import substitute_solved
+from singsym.elimination.verdict import Certainty
+from singsym.polynomials import Polynomial, Ring
+
+
+@dataclass(frozen=True, init=False)
+class Ideal:
+    """The ideal of a ring that some polynomials generate.
+
+    `==` compares generators; `equals` compares ideals.  Every method takes an optional `budget` (else that of
+    the enclosing `with Budget(...)` holds) and raises `Undecided` where no engine comes to an answer.
+    The relations of a ring's algebraic constants are not added: they are part of the equations.
+
+    >>> x, y = Ring(("x", "y")).gens
+    >>> I = Ideal(x.ring, (x**2 + y**2 - 1, x - y))
+    >>> I.dimension, I.degree, I.contains(2 * y**2 - 1)
+    (0, 2, True)
+    """
+
+    ring: Ring
+    generators: tuple[Polynomial, ...]
+
+    def __init__(self, ring: Ring, generators: Iterable[Polynomial] = ()) -> None:
+        object.__setattr__(self, "ring", ring)
+        object.__setattr__(self, "generators", tuple(generators))
+        for g in self.generators:
+            if g.ring != ring:
+                raise ValueError(f"{g} is in {g.ring!r}, not in {ring!r}: convert it with ring.convert")
+
+    def __repr__(self) -> str:
+        shown = [str(g) for g in self.generators[:6]]
+        if len(self.generators) > 6:
+            shown.append(f"... {len(self.generators) - 6} more")
+        return f"Ideal({', '.join(shown) or '0'})"
+
+    def _repr_latex_(self) -> str:
+        import sympy
+
+        inside = ", ".join(sympy.latex(self.ring.to_sympy(g)) for g in self.generators) or "0"
+        return rf"$\left\langle {inside} \right\rangle$"
+
+    # -- Groebner basis --------------------------------------------------------------------------
+
+    def _canonical(self) -> tuple[Polynomial, ...]:
+        return canonical(self.ring, self.generators)
+
+    @property
+    def _key(self) -> tuple[Ring, frozenset[Polynomial]]:
+        return self.ring, frozenset(self._canonical())
+
+    def _basis(self, budget: Budget | None = None) -> Basis:
+        return groebner_basis(self.ring, self.generators, budget)
+
+    def _graded_basis(self, budget: Budget | None = None) -> Basis:
+        """A basis for a degree order, from which dimension and degree are read."""
+        if self.ring.order != "lex":
+            return self._basis(budget)
+        graded = self.ring.with_names(self.ring.names, "degrevlex")
+        return groebner_basis(graded, [graded.from_dict(dict(g.terms())) for g in self.generators], budget)
+
+    def groebner_basis(self, budget: Budget | None = None) -> tuple[Polynomial, ...]:
+        """The reduced Groebner basis in the ring's order, primitive, smallest leading monomial first."""
+        return self._basis(budget).polynomials
+
+    def leading_monomials(self, budget: Budget | None = None) -> tuple[tuple[int, ...], ...]:
+        """The exponents of the leading monomials of the Groebner basis."""
+        return self._basis(budget).leading_monomials()
+
+    @property
+    def certainty(self) -> Certainty:
+        """How the Groebner basis is known: "proven", or "modular" where it rests on random primes."""
+        return self._basis().certainty
+
+    @property
+    def engine(self) -> str:
+        """Who computed the Groebner basis."""
+        return self._basis().engine
+
+    # -- membership ------------------------------------------------------------------------------
+
+    def reduce(self, polynomial: Polynomial, budget: Budget | None = None) -> Polynomial:
+        """The normal form up to a non-zero scalar: zero exactly for the members.
+
+        >>> x, y = Ring(("x", "y")).gens
+        >>> Ideal(x.ring, (2 * x - 1,)).reduce(4 * x * y + y)
+        y
+        """
+        self._same_ring(polynomial)
+        return self._basis(budget).reduce(polynomial)
+
+    def normal_form(self, polynomial: Polynomial, budget: Budget | None = None) -> Polynomial:
+        """The remainder on division by the Groebner basis.
+
+        >>> x, y = Ring(("x", "y")).gens
+        >>> Ideal(x.ring, (2 * x - 1,)).normal_form(4 * x * y + y)
+        3*y
+        """
+        self._same_ring(polynomial)
+        basis = self._basis(budget)
+        if not polynomial or not basis.polynomials:
+            return polynomial
+        # a further variable, which nothing reduces, carries the scalar through the division
+        tagged = self.ring.with_names((*self.ring.names, _fresh(self.ring)))
+        vector = fmpz_mpoly_vec(
+            [tagged.convert(p).integer() for p in basis.polynomials], tagged.integer_context
+        )
+        start = tagged.convert(polynomial) + tagged.gens[-1]
+        terms = remainder(start.integer(), vector).to_dict()
+        tag = (0,) * len(self.ring.names)
+        scalar = terms.pop((*tag, 1))
+        return self.ring.from_dict({m[:-1]: c for m, c in terms.items()}) / scalar
+
+    def contains(self, other: Polynomial | Ideal, budget: Budget | None = None) -> bool:
+        """Whether a polynomial, or every element of an ideal, is in this ideal."""
+        members = other.generators if isinstance(other, Ideal) else (other,)
+        generators = set(self._canonical())
+        return all(not p or p.primitive() in generators or self.reduce(p, budget).is_zero for p in members)
+
+    def equals(self, other: Ideal, budget: Budget | None = None) -> bool:
+        """Whether the two are the same ideal, however generated."""
+        self._same_ring(other)
+        return self.groebner_basis(budget) == other.groebner_basis(budget)
+
+    def radical_contains(self, other: Polynomial | Ideal, budget: Budget | None = None) -> bool:
+        """Whether a power of the polynomial (of every element) is in the ideal: it vanishes on all zeros.
+
+        >>> x, y = Ring(("x", "y")).gens
+        >>> Ideal(x.ring, (x**2, x * y)).radical_contains(x)
+        True
+        """
+        budget = current(budget)
+        members = other.generators if isinstance(other, Ideal) else (other,)
+        for p in members:
+            self._same_ring(p)
+            if p and not self._vanishes(p, budget):
+                return False
+        return True
+
+    def _vanishes(self, polynomial: Polynomial, budget: Budget) -> bool:
+        key = (self._key, polynomial.primitive())
+
+        def compute() -> bool:
+            reduced = polynomial.squarefree_part()
+            if is_known("groebner", self._key):
+                reduced = self._basis(budget).reduce(reduced)
+                if not reduced:
+                    return True
+                reduced = min(reduced.squarefree_part(), polynomial.squarefree_part(), key=len)
+            if reduced.is_constant:
+                return self.is_unit(budget)
+            return Ideal(*without_zeros_of(self.ring, self.generators, reduced)).is_unit(budget)
+
+        return remember("vanishes", key, compute)
+
+    def is_unit(self, budget: Budget | None = None) -> bool:
+        """Whether the ideal contains 1: there is no zero, not even a complex one."""
+        return self._core(budget)[0].is_unit
+
+    def _core(self, budget: Budget | None = None) -> tuple[Basis, int]:
+        """A Groebner basis that has the same quotient ring, and how many variables it lives in."""
+        if is_known("groebner", self._key) and self.ring.order != "lex":
+            return self._basis(budget), len(self.ring.names)
+
+        def compute() -> tuple[Basis, int]:
+            graded = self.ring.with_names(self.ring.names, "degrevlex")
+            generators = [graded.from_dict(dict(g.terms())) for g in self._canonical()]
+            rest, made = substitute_solved(generators)
+            return groebner_basis(graded, rest, budget), len(self.ring.names) - len(made)
+
+        return remember("core", self._key, compute)
+
+    # -- dimension -------------------------------------------------------------------------------
+
+    @property
+    def dimension(self) -> int:
+        """The complex dimension of the zero set; -1 for the unit ideal."""
+        basis, variables = self._core()
+        unused = len(self.ring.names) - variables
+        found = monomials.independent_sets_dimension(basis.leading_monomials(), len(self.ring.names))
+        return found if found < 0 else found - unused
+
+    @property
+    def degree(self) -> int:
+        """The degree of the top-dimensional part, counted with multiplicity; 0 for the unit ideal."""
+        return monomials.degree(self._graded_basis().leading_monomials(), len(self.ring.names))
+
+    @property
+    def is_zero_dimensional(self) -> bool:
+        """Whether there are finitely many zeros, and one at least."""
+        return self.dimension == 0
+
+    @property
+    def vector_space_dimension(self) -> int:
+        """The number of complex zeros with multiplicity; raises `ValueError` where they are not finite."""
+        if self.dimension > 0:
+            raise ValueError(f"an ideal of dimension {self.dimension} has infinitely many zeros")
+        return self.degree if self.dimension == 0 else 0
+
+    # -- algebra ---------------------------------------------------------------------------------
+
+    def __add__(self, other: Ideal | Polynomial) -> Ideal:
+        """The ideal generated by both."""
+        self._same_ring(other)
+        more = other.generators if isinstance(other, Ideal) else (other,)
+        return Ideal(self.ring, dict.fromkeys((*self.generators, *more)))
+
+    def __mul__(self, other: Ideal) -> Ideal:
+        """The ideal generated by the products."""
+        self._same_ring(other)
+        return Ideal(self.ring, dict.fromkeys(f * g for f in self.generators for g in other.generators))
+
+    def intersect(self, other: Ideal, budget: Budget | None = None) -> Ideal:
+        """The common elements.
+
+        >>> x, y = Ring(("x", "y")).gens
+        >>> Ideal(x.ring, (x,)).intersect(Ideal(x.ring, (y,)))
+        Ideal(x*y)
+        """
+        self._same_ring(other)
+        budget = current(budget)
+        for small, large in ((self, other), (other, self)):
+            if large.is_unit(budget) or large.contains(small, budget):
+                return small
+        name = _fresh(self.ring)
+        larger = self.ring.with_names((name, *self.ring.names), "degrevlex")
+        t = larger.gens[0]
+        both = [t * larger.convert(f) for f in self._canonical()]
+        both += [(1 - t) * larger.convert(g) for g in other._canonical()]
+        return self._from(eliminate(larger, both, {name}, budget))
+
+    def eliminate(self, names: Iterable[str], budget: Budget | None = None) -> Ideal:
+        """The elements free of these variables, as an ideal of the same ring (see `restrict`).
+
+        >>> t, x, y = Ring(("t", "x", "y")).gens
+        >>> Ideal(t.ring, (x - t**2, y - t**3)).eliminate({"t"})
+        Ideal(x^3 - y^2)
+        """
+        chosen = set(names)
+        for name in chosen:
+            self.ring.index(name)
+        graded = self.ring.with_names(self.ring.names, "degrevlex")
+        found = eliminate(graded, [_moved(g, graded) for g in self._canonical()], chosen, current(budget))
+        return self._from(found)
+
+    def restrict(self, ring: Ring) -> Ideal:
+        """The same generators in a ring that has their variables; raises `KeyError` for a missing one."""
+        return Ideal(ring, tuple(ring.convert(g) for g in self.generators))
+
+    def saturate(self, other: Polynomial | Ideal, budget: Budget | None = None) -> Ideal:
+        """The ideal of the zeros outside the zero set of `other`: f with f g^k in the ideal for some k.
+
+        >>> x, y = Ring(("x", "y")).gens
+        >>> Ideal(x.ring, (x**2 * y, x * y**2)).saturate(x)
+        Ideal(y)
+        """
+        self._same_ring(other)
+        budget = current(budget)
+        if isinstance(other, Ideal):
+            parts = [self.saturate(g, budget) for g in other._canonical()]
+            return fold(lambda a, b: a.intersect(b, budget), parts, Ideal(self.ring, (self.ring.one,)))
+        if not other:
+            return Ideal(self.ring, (self.ring.one,))
+        result = self
+        for factor, _ in other.factors():
+            result = result._saturated_by(factor, budget)
+        return result
+
+    def _saturated_by(self, factor: Polynomial, budget: Budget) -> Ideal:
+        larger, system = without_zeros_of(self.ring, self._canonical(), factor)
+        system = tuple(_moved(g, larger.with_names(larger.names, "degrevlex")) for g in system)
+        return self._from(eliminate(system[0].ring, system, {larger.names[0]}, budget))
+
+    def quotient(self, other: Polynomial | Ideal, budget: Budget | None = None) -> Ideal:
+        """The f with f g in the ideal for every g in `other`.
+
+        >>> x, y = Ring(("x", "y")).gens
+        >>> Ideal(x.ring, (x**2 * y,)).quotient(x)
+        Ideal(x*y)
+        """
+        self._same_ring(other)
+        unit = Ideal(self.ring, (self.ring.one,))
+        if isinstance(other, Ideal):
+            parts = [self.quotient(g, budget) for g in other._canonical()]
+            return fold(lambda a, b: a.intersect(b, budget), parts, unit)
+        if not other:
+            return unit
+        common = self.intersect(Ideal(self.ring, (other,)), budget)
+        return Ideal(self.ring, tuple(g.exact_quotient(other) for g in common.generators))
+
+    def minimal_primes(self, budget: Budget | None = None) -> tuple[Ideal, ...]:
+        """The minimal primes over the ideal, () for the unit ideal.
+
+        Principal, linear and zero ideals need no engine; others need Singular, and raise
+        `engines.EngineUnavailable` without it (see `varieties.decomposition`, which splits).
+        """
+        found = minimal_primes(self.ring, self._canonical(), current(budget))
+        return tuple(Ideal(self.ring, prime) for prime in found)
+
+    def radical(self, budget: Budget | None = None) -> Ideal:
+        """The polynomials of which a power is in the ideal."""
+        primes = self.minimal_primes(budget)
+        return fold(lambda a, b: a.intersect(b, budget), primes, Ideal(self.ring, (self.ring.one,)))
+
+    # -- helpers ---------------------------------------------------------------------------------
+
+    def _from(self, polynomials: Sequence[Polynomial]) -> Ideal:
+        return Ideal(self.ring, canonical(self.ring, (self.ring.convert(p) for p in polynomials)))
+
+    def _same_ring(self, other: Polynomial | Ideal) -> None:
+        if other.ring != self.ring:
+            raise ValueError(f"{other!r} is in {other.ring!r}, not in {self.ring!r}: convert it first")
+
+
+def _moved(polynomial: Polynomial, ring: Ring) -> Polynomial:
+    """The polynomial in a ring of the same names and another order."""
+    return ring.from_dict(dict(polynomial.terms()))
+
+
+def _fresh(ring: Ring) -> str:
+    """A name that the ring does not have."""
+    return next(name for k in range(len(ring.names) + 1) if (name := f"t{k}") not in ring.names)

@@ -1,0 +1,92 @@
+"""Answers that say how they are known: yes, no or undecided, with a certificate or a reason.
+
+Source: the contract between numerics and proofs; numerics may find, they never conclude.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Any, Literal
+
+Certainty = Literal["proven", "certified", "modular", "undecided"]
+
+
+class Answer(StrEnum):
+    """What is answered to a yes-or-no question."""
+
+    YES = "yes"
+    NO = "no"
+    UNDECIDED = "undecided"
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """The answer to a question about a set, and how it is known.
+
+    certainty: "proven" by exact algebra, "certified" by interval arithmetic, "modular" where it rests on
+    random primes, "undecided" without an answer.
+    engine: who computed it; witness: a point or polynomial that shows it; reason: one sentence.
+
+    >>> Verdict.no("proven", reason="the ideal contains 1").is_no
+    True
+    >>> bool(Verdict.undecided("out of time"))
+    Traceback (most recent call last):
+    ...
+    TypeError: a Verdict has no truth value: ask .is_yes, .is_no or .is_undecided (undecided: out of time)
+    """
+
+    answer: Answer
+    certainty: Certainty = "proven"
+    engine: str = ""
+    witness: Any = None
+    reason: str = ""
+
+    @classmethod
+    def yes(
+        cls, certainty: Certainty = "proven", *, engine: str = "", witness: Any = None, reason: str = ""
+    ) -> Verdict:
+        """The answer yes."""
+        return cls(Answer.YES, certainty, engine, witness, reason)
+
+    @classmethod
+    def no(
+        cls, certainty: Certainty = "proven", *, engine: str = "", witness: Any = None, reason: str = ""
+    ) -> Verdict:
+        """The answer no."""
+        return cls(Answer.NO, certainty, engine, witness, reason)
+
+    @classmethod
+    def undecided(cls, reason: str, *, engine: str = "") -> Verdict:
+        """No answer, and why."""
+        return cls(Answer.UNDECIDED, "undecided", engine, None, reason)
+
+    @property
+    def is_yes(self) -> bool:
+        return self.answer is Answer.YES
+
+    @property
+    def is_no(self) -> bool:
+        return self.answer is Answer.NO
+
+    @property
+    def is_undecided(self) -> bool:
+        return self.answer is Answer.UNDECIDED
+
+    def __invert__(self) -> Verdict:
+        """The verdict on the opposite question.
+
+        >>> (~Verdict.yes()).is_no
+        True
+        """
+        opposite = {Answer.YES: Answer.NO, Answer.NO: Answer.YES, Answer.UNDECIDED: Answer.UNDECIDED}
+        return Verdict(opposite[self.answer], self.certainty, self.engine, self.witness, self.reason)
+
+    def __bool__(self) -> bool:
+        raise TypeError(f"a Verdict has no truth value: ask .is_yes, .is_no or .is_undecided ({self})")
+
+    def __str__(self) -> str:
+        if self.is_undecided:
+            return f"undecided: {self.reason}" if self.reason else "undecided"
+        by = f" by {self.engine}" if self.engine else ""
+        return f"{self.answer} ({self.certainty}{by})" + (f": {self.reason}" if self.reason else "")
