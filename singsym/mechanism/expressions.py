@@ -6,9 +6,9 @@ Source: singsym's own grammar; exact numbers by SymPy (https://docs.sympy.org).
     product = signed (("*" | "/") signed)*
     signed  = ("+" | "-") signed | power
     power   = atom [("^" | "**") signed]            the exponent a whole number
-    atom    = number | name | pi | "(" sum ")" | function "(" sum ")", each with "deg" or "°" behind it if wanted
-    function = sqrt | sin | cos
-In limits and exclusions also `A.x` (a coordinate of point A) and cos(A), sin(A), angle(A), length(P) of joints.
+    atom    = (number | name | pi | "(" sum ")" | ("sqrt" | "sin" | "cos") "(" sum ")") ["deg" | "°"]
+
+In limits and exclusions also the coordinates `A.x` of points, and cos(A), sin(A), angle(A), length(P) of joints.
 """
 
 from __future__ import annotations

@@ -24,8 +24,8 @@ from singsym.mechanism.serial import read_dh
 
 MAX_SIZE = 1_000_000
 KEYS = (
-    "name", "title", "source", "description", "space", "ground", "formulation", "mobility", "inputs", "output",
-    "parameters", "links", "joints", "dh", "limits", "exclusions",
+    "name", "title", "source", "description", "space", "ground", "formulation", "mobility",
+    "inputs", "output", "parameters", "links", "joints", "dh", "limits", "exclusions",
 )  # fmt: skip
 FORMULATIONS = ("auto", "planar", "spherical", "joint", "natural")
 
@@ -184,7 +184,7 @@ def _read_parameters(value: Any, reader: Reader) -> tuple[Parameter, ...]:
             reader.report(place, "no value and no range" if not read else shorten(entry), expected)
         low, high = read.get("above"), read.get("below")
         if "between" in read:
-            ends = reader.list(read["between"], f"{place}.between")
+            ends = reader.items(read["between"], f"{place}.between")
             if len(ends) != 2:
                 reader.report(f"{place}.between", kind_of(read["between"]), "[low, high]")
                 ends = [None, None]

@@ -1,6 +1,6 @@
 """Joints and inputs of a mechanism file.
 
-Source: singsym's own format; k links on one pin are k-1 joints (Zlatanov, Fenton, Benhabib 1998, section 2.1).
+Source: singsym's own format; k links on one pin are k-1 joints (Zlatanov, Fenton, Benhabib 1998).
 """
 
 from __future__ import annotations

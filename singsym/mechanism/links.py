@@ -6,11 +6,11 @@ Source: singsym's own format; law of cosines for triangles.
 from __future__ import annotations
 
 import re
+from numbers import Rational
 from typing import Any
 
 import sympy
 
-from singsym.mechanism.expressions import DecimalText
 from singsym.mechanism.model import Link, Space, Vector
 from singsym.mechanism.reader import Reader
 
@@ -25,7 +25,7 @@ def read_links(value: Any, reader: Reader) -> tuple[Link, ...]:
         place = f"links.{name}"
         reader.name(name, place)
         short = "arc" if reader.space is Space.SPHERICAL else "length"
-        if isinstance(entry, (str, int, float, sympy.Expr)) or isinstance(entry, DecimalText):
+        if isinstance(entry, (str, Rational, float, sympy.Expr)):
             entry = {short: entry}
         links.append(_read_link(name, reader.table(entry, place, _KEYS), place, reader))
     return tuple(links)

@@ -90,7 +90,7 @@ def read_limits(value: Any, known: Quantities, reader: Reader) -> tuple[Limit, .
             ends = reader.table(bounds, place, ("min", "max"))
             pair = [ends.get("min"), ends.get("max")]
         else:
-            pair = reader.list(bounds, place)
+            pair = reader.items(bounds, place)
         if len(pair) != 2 or pair == [None, None]:
             reader.report(place, kind_of(bounds), "[low, high], { min = low } or { max = high }")
             continue

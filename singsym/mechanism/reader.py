@@ -72,17 +72,17 @@ class Reader:
             self.report(place, f"the name {shorten(text)!r}", expected + ", ".join(RESERVED))
         return text
 
-    def list(self, value: Any, place: str) -> list[Any]:
+    def items(self, value: Any, place: str) -> list[Any]:
         if isinstance(value, (list, tuple)):
             return list(value)
         self.report(place, kind_of(value), "a list in square brackets")
         return []
 
     def texts(self, value: Any, place: str) -> list[str]:
-        return [self.text(v, f"{place}[{i}]") for i, v in enumerate(self.list(value, place))]
+        return [self.text(v, f"{place}[{i}]") for i, v in enumerate(self.items(value, place))]
 
     def names(self, value: Any, place: str) -> list[str]:
-        return [self.name(v, f"{place}[{i}]") for i, v in enumerate(self.list(value, place))]
+        return [self.name(v, f"{place}[{i}]") for i, v in enumerate(self.items(value, place))]
 
     def expression(self, value: Any, place: str) -> sympy.Expr:
         """An expression in the parameters; zero where it cannot be read."""

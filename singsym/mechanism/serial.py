@@ -27,7 +27,7 @@ def read_dh(value: Any, reader: Reader) -> tuple[tuple[Link, ...], tuple[Joint, 
     convention = table.get("convention", "standard")
     if convention not in ("standard", "modified"):
         reader.report("dh.convention", kind_of(convention), '"standard" or "modified"')
-    rows = reader.list(table.get("rows"), "dh.rows")
+    rows = reader.items(table.get("rows"), "dh.rows")
     if not rows:
         reader.report("dh.rows", "no rows", '{ joint = "R", a = 0, alpha = 90, d = 0 } for every joint')
     points: list[dict[str, Vector]] = [{}]
