@@ -8,10 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from flint import fmpq_mpoly, fmpz_mpoly_vec
-
+from singsym.elimination import engines
 from singsym.elimination.budget import Budget, Undecided, current
-from singsym.polynomials import AlgebraicConstant, Polynomial, Ring
+from singsym.polynomials import AlgebraicConstant, Polynomial
 from singsym.varieties.real.parametrization import Parametrization, parametrize
 from singsym.varieties.real.points import RealPoint, real_points_of
 from singsym.varieties.real.quotient import NotZeroDimensional, quotient_algebra, reduced
@@ -26,6 +25,7 @@ def real_points(equations: Sequence[Polynomial], budget: Budget | None = None) -
     points with a conjugate of a constant are dropped.  Multiplicities are not told.
     Raises `NotZeroDimensional` where there are infinitely many complex points, `Undecided` out of budget.
 
+    >>> from singsym.polynomials import Ring
     >>> x, y = Ring(("x", "y")).gens
     >>> [p.decimals(4) for p in real_points([x**2 + y**2 - 4, x - y])]
     [{'x': '-1.414', 'y': '-1.414'}, {'x': '1.414', 'y': '1.414'}]
@@ -49,7 +49,7 @@ def solve(equations: Sequence[Polynomial], budget: Budget | None = None) -> Para
     def check() -> None:
         budget.check("the quotient algebra of a zero-dimensional system")
 
-    basis = _basis(ring, system, budget)
+    basis = engines.solve(engines.Task("groebner", ring, tuple(system)), budget).ideals[0]
     algebra = quotient_algebra(ring, basis, check)
     found = parametrize(algebra, system, check=check)
     if found is None:
@@ -57,12 +57,6 @@ def solve(equations: Sequence[Polynomial], budget: Budget | None = None) -> Para
     if found is None:
         raise Undecided("no linear form was found that separates the complex points")
     return found
-
-
-def _basis(ring: Ring, system: Sequence[Polynomial], budget: Budget) -> list[Polynomial]:
-    vector = fmpz_mpoly_vec([f.integer() for f in system], ring.integer_context)
-    basis = vector.buchberger_naive().autoreduction()
-    return [Polynomial(ring, fmpq_mpoly(g)) for g in basis]
 
 
 def pinned(point: RealPoint, constants: Sequence[AlgebraicConstant]) -> bool:

@@ -1,0 +1,103 @@
+"""Numerical search for real solutions: Gauss-Newton from random starts.  It finds; it proves nothing.
+
+Source: Ortega, Rheinboldt, Iterative Solution of Nonlinear Equations in Several Variables (1970), ch. 8.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from singsym.polynomials import Polynomial, Ring
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Vector = NDArray[np.float64]
+    Map = Callable[[Vector], tuple[Vector, Vector]]
+
+
+class Compiled:
+    """Polynomials and their first derivatives as NumPy functions, each scaled to coefficients <= 1."""
+
+    def __init__(self, polynomials: Sequence[Polynomial], ring: Ring) -> None:
+        names = ring.names
+        self.size = len(names)
+        self.count = len(polynomials)
+        table: dict[tuple[int, ...], int] = {}
+        rows: list[int] = []
+        places: list[int] = []
+        factors: list[float] = []
+        for k, f in enumerate(polynomials):
+            terms = [(tuple(map(int, m)), float(Fraction(int(c.p), int(c.q)))) for m, c in f.terms()]
+            scale = max((abs(c) for _, c in terms), default=1.0)
+            for m, c in terms:
+                rows.append(k)
+                places.append(table.setdefault(m, len(table)))
+                factors.append(c / scale)
+                for i, e in enumerate(m):
+                    if e:
+                        rows.append(self.count + k * self.size + i)
+                        places.append(table.setdefault((*m[:i], e - 1, *m[i + 1 :]), len(table)))
+                        factors.append(e * c / scale)
+        self.exponents = np.array(list(table), dtype=np.int64).reshape(len(table), self.size)
+        self.rows = np.array(rows, dtype=np.int64)
+        self.places = np.array(places, dtype=np.int64)
+        self.factors = np.array(factors, dtype=np.float64)
+
+    def __call__(self, x: Vector) -> tuple[Vector, Vector]:
+        """Values and Jacobian matrix at a point."""
+        highest = int(self.exponents.max(initial=0))
+        powers = np.ones((self.size, highest + 1))
+        for e in range(1, highest + 1):
+            powers[:, e] = powers[:, e - 1] * x
+        monomials = np.prod(powers[np.arange(self.size), self.exponents], axis=1)
+        products = self.factors * monomials[self.places]
+        length = self.count * (1 + self.size)
+        total = np.asarray(np.bincount(self.rows, weights=products, minlength=length), dtype=np.float64)
+        return total[: self.count], total[self.count :].reshape(self.count, self.size)
+
+
+def gauss_newton(system: Map, start: Vector, steps: int = 60) -> Vector | None:
+    """A point where the system is zero to rounding, near `start`, or `None`; steps are no longer than 1."""
+    x = np.array(start)
+    for _ in range(steps):
+        value, slope = system(x)
+        if not np.all(np.isfinite(value)):
+            return None
+        step = np.linalg.lstsq(slope, -value, rcond=1e-12)[0]
+        length = float(np.linalg.norm(step))
+        x = x + step / max(1.0, length)
+        if length < 1e-13 * (1 + float(np.linalg.norm(x))):
+            break
+    value, _ = system(x)
+    return x if float(np.max(np.abs(value), initial=0.0)) < 1e-9 else None
+
+
+def numerical_rank(slope: Vector) -> int:
+    """The rank of a matrix up to singular values 1e-7 times the largest."""
+    if not slope.size:
+        return 0
+    values = np.linalg.svd(slope, compute_uv=False)
+    return int(np.sum(values > 1e-7 * max(1e-300, float(values[0]))))
+
+
+def dependent_columns(slope: Vector, rank: int, first: Sequence[int]) -> list[int]:
+    """Columns that the others determine, by pivoted orthogonalisation, those in `first` before others."""
+    work = np.array(slope, dtype=np.float64)
+    chosen: list[int] = []
+    for k in range(rank):
+        norms = np.linalg.norm(work, axis=0)
+        candidates = [j for j in first if j not in chosen and norms[j] > 1e-9] if k < len(first) else []
+        j = candidates[0] if candidates else int(np.argmax(norms))
+        chosen.append(j)
+        length = float(norms[j])
+        if length == 0:
+            break
+        direction = work[:, j] / length
+        work = work - np.outer(direction, direction @ work)
+        work[:, chosen] = 0
+    return sorted(chosen)

@@ -1,0 +1,282 @@
+"""Certified real points of systems of equations, exclusions and inequalities.
+
+Numerical search, then free coordinates frozen at rationals and the rest solved exactly, or proven by a
+Krawczyk test where the equations are as many as the unknowns.
+Source: Hauenstein, Sottile, ACM Trans. Math. Softw. 38 (2012) 28 (certified solutions).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from singsym.elimination.budget import Budget, BudgetExceeded, Undecided, current
+from singsym.elimination.engines import EngineFailure
+from singsym.polynomials import Polynomial, Ring
+from singsym.varieties.real.box import BoxPoint, boxed_point
+from singsym.varieties.real.points import RealPoint
+from singsym.varieties.real.zerodim import NotZeroDimensional, real_points
+
+if TYPE_CHECKING:
+    from singsym.varieties.real.search import Compiled, Vector
+
+# denominators tried for the frozen coordinates, nice values first
+_DENOMINATORS = (1, 2, 8, 64)
+_SOLVE_SECONDS = 10.0
+
+
+@dataclass(frozen=True)
+class RealSystem:
+    """The real points with equations = 0, no exclusion group all zero, positive > 0 and nonnegative >= 0.
+
+    exclusions: groups of polynomials; a point is excluded where all polynomials of some group vanish.
+    The ring's constants have their own values, never those of conjugates.
+    """
+
+    ring: Ring
+    equations: tuple[Polynomial, ...]
+    exclusions: tuple[tuple[Polynomial, ...], ...] = ()
+    positive: tuple[Polynomial, ...] = ()
+    nonnegative: tuple[Polynomial, ...] = ()
+
+    @property
+    def closed_equations(self) -> tuple[Polynomial, ...]:
+        """The equations that are not zero, with the relations of the ring's constants."""
+        found = [f for f in (*self.equations, *self.ring.relations) if not f.is_zero]
+        return tuple(dict.fromkeys(found))
+
+    def admits(self, point: RealPoint | BoxPoint) -> bool:
+        """Whether a point that solves the equations meets all other conditions, by exact signs."""
+        return (
+            all(any(point.sign(g) for g in group) for group in self.exclusions)
+            and all(point.sign(p) > 0 for p in self.positive)
+            and all(point.sign(p) >= 0 for p in self.nonnegative)
+        )
+
+
+@dataclass(frozen=True)
+class Witness:
+    """A certified real point of a system, with the coordinates that were frozen at rationals to find it."""
+
+    point: RealPoint | BoxPoint
+    frozen: tuple[str, ...] = ()
+
+    @property
+    def ring(self) -> Ring:
+        return self.point.ring
+
+    @property
+    def certainty(self) -> str:
+        """ "proven" for an exact point, "certified" for a box with one solution inside."""
+        return "proven" if isinstance(self.point, RealPoint) else "certified"
+
+    @property
+    def box(self) -> tuple[object, ...]:
+        """Balls around the coordinates."""
+        return self.point.box
+
+    @property
+    def floats(self) -> tuple[float, ...]:
+        return self.point.floats
+
+    @property
+    def radius(self) -> float:
+        return self.point.radius
+
+    def decimals(self, digits: int = 12) -> dict[str, str]:
+        """The coordinates by name to so many digits."""
+        return self.point.decimals(digits)
+
+    def sign(self, polynomial: Polynomial) -> int:
+        """The sign of a polynomial at the point, decided exactly; see `RealPoint.sign`, `BoxPoint.sign`."""
+        return self.point.sign(polynomial)
+
+    def __repr__(self) -> str:
+        return f"Witness({self.point!r})"
+
+
+def find_witness(
+    system: RealSystem,
+    *,
+    seed: int = 0,
+    tries: int = 40,
+    dimension: int | None = None,
+    budget: Budget | None = None,
+) -> Witness | None:
+    """A certified real point of the system, or `None`, which proves nothing.
+
+    dimension: that of the equations' complex zero set, where it is known; else a numerical rank stands in.
+    Points with small rational coordinates come first.  Raises `BudgetExceeded`.
+
+    >>> R = Ring(("x", "y"))
+    >>> x, y = R.gens
+    >>> find_witness(RealSystem(R, (x**2 + y**2 - 1,), positive=(x, y))).sign(x - y) in (-1, 0, 1)
+    True
+    """
+    budget = current(budget)
+    equations = system.closed_equations
+    if any(f.is_constant for f in equations):
+        return None
+    for sample in _samples(system, equations, seed, tries):
+        budget.check("the search for a real point")
+        for values in _frozen_values(system, equations, sample, dimension):
+            budget.check("the search for a real point")
+            found = _certified(system, equations, values, sample, budget)
+            if found is not None:
+                return Witness(found, tuple(values))
+    return None
+
+
+# -- numerical samples -------------------------------------------------------------------------------
+
+
+def _samples(system: RealSystem, equations: Sequence[Polynomial], seed: int, tries: int) -> Iterator[Vector]:
+    """Numerical points of the system; inequalities enter with slack variables p = s^2."""
+    import numpy as np
+
+    from singsym.varieties.real.search import Compiled, gauss_newton
+
+    ring = system.ring
+    sided = (*system.positive, *system.nonnegative)
+    wide = ring.with_names((*ring.names, *(f"slack {k}" for k in range(len(sided)))))
+    slack = [wide.gen(f"slack {k}") for k in range(len(sided))]
+    extended = [wide.convert(f) for f in equations]
+    extended += [wide.convert(p) - s * s for p, s in zip(sided, slack, strict=True)]
+    compiled = Compiled(extended, wide)
+    excluded = [Compiled(group, ring) for group in system.exclusions]
+    random = np.random.default_rng(seed)
+    fixed = {ring.index(c.name): float((c.low + c.high) / 2) for c in ring.constants}
+    for attempt in range(tries):
+        start = random.normal(size=len(wide.names)) * (0.7, 1.5, 3.0, 8.0)[attempt % 4]
+        for k, value in fixed.items():
+            start[k] = value
+        x = gauss_newton(compiled, start) if extended else start
+        if x is None:
+            continue
+        x = x[: len(ring.names)]
+        if all(float(np.max(np.abs(g(x)[0]))) > 1e-6 for g in excluded):
+            yield x
+
+
+def _frozen_values(
+    system: RealSystem, equations: Sequence[Polynomial], sample: Vector, dimension: int | None
+) -> Iterator[dict[str, Fraction]]:
+    """Rationals for as many coordinates as leave finitely many points, coarse ones first."""
+    from singsym.varieties.real.search import Compiled, dependent_columns, gauss_newton, numerical_rank
+
+    ring = system.ring
+    compiled = Compiled(equations, ring)
+    _, slope = compiled(sample)
+    rank = numerical_rank(slope) if dimension is None else len(ring.names) - dimension
+    dependent = dependent_columns(slope, rank, [ring.index(c.name) for c in ring.constants])
+    free = [k for k in range(len(ring.names)) if k not in dependent]
+    seen: set[tuple[Fraction, ...]] = set()
+    for denominator in _DENOMINATORS:
+        values = tuple(Fraction(round(float(sample[k]) * denominator), denominator) for k in free)
+        if values in seen:
+            continue
+        seen.add(values)
+        rest = _Restricted(compiled, sample, free, dependent, values)
+        if gauss_newton(rest, sample[dependent]) is not None:
+            yield {ring.names[k]: v for k, v in zip(free, values, strict=True)}
+
+
+class _Restricted:
+    """A compiled system with some coordinates held at rationals."""
+
+    def __init__(
+        self,
+        compiled: Compiled,
+        sample: Vector,
+        free: Sequence[int],
+        dependent: Sequence[int],
+        values: Sequence[Fraction],
+    ) -> None:
+        self.compiled = compiled
+        self.dependent = list(dependent)
+        self.whole = sample.copy()
+        for k, v in zip(free, values, strict=True):
+            self.whole[k] = float(v)
+
+    def __call__(self, x: Vector) -> tuple[Vector, Vector]:
+        self.whole[self.dependent] = x
+        value, slope = self.compiled(self.whole)
+        return value, slope[:, self.dependent]
+
+
+# -- certificates ------------------------------------------------------------------------------------
+
+
+def _certified(
+    system: RealSystem,
+    equations: Sequence[Polynomial],
+    values: dict[str, Fraction],
+    sample: Vector,
+    budget: Budget,
+) -> RealPoint | BoxPoint | None:
+    """An exact point with the frozen values, nearest to the sample; else a box for a square system."""
+    ring = system.ring
+    try:
+        points = frozen_points(ring, equations, values, budget.part(_SOLVE_SECONDS))
+    except NotZeroDimensional:
+        return None
+    except (BudgetExceeded, EngineFailure):
+        budget.check("the search for a real point")
+        return _certified_box(system, equations, values, sample)
+    order = sorted(points, key=lambda p: sum((a - b) ** 2 for a, b in zip(p.floats, sample, strict=True)))
+    return next((p for p in order if system.admits(p)), None)
+
+
+def _certified_box(
+    system: RealSystem, equations: Sequence[Polynomial], values: dict[str, Fraction], sample: Vector
+) -> BoxPoint | None:
+    if len(equations) != len(system.ring.names) - len(values):
+        return None
+    point = boxed_point(system.ring, equations, values, [float(v) for v in sample])
+    try:
+        return point if point is not None and system.admits(point) else None
+    except Undecided:
+        return None
+
+
+def frozen_points(
+    ring: Ring, equations: Sequence[Polynomial], values: dict[str, Fraction], budget: Budget | None = None
+) -> list[RealPoint]:
+    """All real points of the equations with these coordinates at these rationals, exactly.
+
+    >>> R = Ring(("x", "y"))
+    >>> x, y = R.gens
+    >>> frozen_points(R, [x**2 + y**2 - 1], {"x": Fraction(3, 5)})
+    [RealPoint(x=0.600000, y=-0.800000), RealPoint(x=0.600000, y=0.800000)]
+    """
+    names = tuple(n for n in ring.names if n not in values)
+    smaller = ring.with_names(names)
+    if not names:
+        zero = all(f.substitute(values).is_zero for f in equations)
+        return [_rational_point(ring, values)] if zero else []
+    restricted = [smaller.convert(f.substitute(values)) for f in equations]
+    points = real_points([*restricted, *smaller.relations] or [smaller.zero], budget)
+    return [_lifted(p, ring, values) for p in points]
+
+
+def _rational_point(ring: Ring, values: dict[str, Fraction]) -> RealPoint:
+    point = RealPoint(ring.with_names(()), (0, 1), (1,), (), Fraction(0), Fraction(0))
+    return _lifted(point, ring, values)
+
+
+def _lifted(point: RealPoint, ring: Ring, values: dict[str, Fraction]) -> RealPoint:
+    """The point of the whole ring: a frozen coordinate p/q has the numerator p/q times the denominator."""
+    common = 1
+    for v in values.values():
+        common = common * v.denominator
+    numerators = []
+    for name in ring.names:
+        if name in values:
+            factor = values[name] * common
+            numerators.append(tuple(int(factor) * c for c in point.denominator))
+        else:
+            numerators.append(tuple(common * c for c in point.numerators[point.ring.index(name)]))
+    denominator = tuple(common * c for c in point.denominator)
+    return RealPoint(ring, point.minimal, denominator, tuple(numerators), point.low, point.high, point.bits)
