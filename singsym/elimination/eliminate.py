@@ -14,7 +14,10 @@ from singsym.elimination.basis import canonical, groebner_basis
 from singsym.elimination.budget import Budget
 from singsym.elimination.memo import remember
 from singsym.elimination.substitution import connected, substitute_solved
+from singsym.elimination.verdict import Certainty, weakest
 from singsym.polynomials import Polynomial, Ring
+
+Generators = tuple[tuple[Polynomial, ...], Certainty]
 
 _LARGEST_WEIGHT = 4000
 
@@ -36,8 +39,8 @@ def without_zeros_of(
 
 def eliminate(
     ring: Ring, generators: Sequence[Polynomial], names: Collection[str], budget: Budget
-) -> tuple[Polynomial, ...]:
-    """Generators of the elements free of `names`; the ring's order is degrevlex.
+) -> Generators:
+    """Generators of the elements free of `names`, and how they are known; the ring's order is degrevlex.
 
     Raises what `groebner_basis` raises.
     """
@@ -48,23 +51,26 @@ def eliminate(
 
 def _eliminate(
     ring: Ring, generators: Sequence[Polynomial], names: Collection[str], budget: Budget
-) -> tuple[Polynomial, ...]:
+) -> Generators:
     rest, _ = substitute_solved(generators, names)
     kept: list[Polynomial] = []
+    certainty: Certainty = "proven"
     for group in connected(rest):
         inside = {n for p in group for n in p.variables}
         if any(p.is_constant for p in group):
-            return (ring.one,)
+            return (ring.one,), "proven"
         if not inside & set(names):
             kept += group
         elif not inside <= set(names) or len(group) > 1:
-            kept += _eliminate_group(ring, group, inside & set(names), budget)
-    return canonical(ring, kept)
+            found, how = _eliminate_group(ring, group, inside & set(names), budget)
+            kept += found
+            certainty = weakest(certainty, how)
+    return canonical(ring, kept), certainty
 
 
 def _eliminate_group(
     ring: Ring, group: Sequence[Polynomial], names: Collection[str], budget: Budget
-) -> tuple[Polynomial, ...]:
+) -> Generators:
     positions = [ring.index(n) for n in names]
     weight = max(2, max(p.total_degree for p in group))
     while weight < _LARGEST_WEIGHT:
@@ -75,10 +81,11 @@ def _eliminate_group(
             break
         free = [p for p in basis.polynomials if not any(p.terms()[0][0][i] for i in positions)]
         if all(not p.degrees[i] > 0 for p in free for i in positions):
-            return tuple(free)
+            return tuple(free), basis.certainty
         weight *= 4
     variables = tuple(ring.gens[i] for i in positions)
-    return engines.solve(engines.Task("eliminate", ring, tuple(group), variables), budget).ideals[0]
+    answer = engines.solve(engines.Task("eliminate", ring, tuple(group), variables), budget)
+    return answer.ideals[0], answer.certainty
 
 
 def _stretched(polynomial: Polynomial, positions: Sequence[int], weight: int) -> Polynomial:

@@ -12,6 +12,16 @@ from typing import Any, Literal
 Certainty = Literal["proven", "certified", "modular", "undecided"]
 
 
+def weakest(*certainties: Certainty) -> Certainty:
+    """What is left of the certainty of a conclusion from several results.
+
+    >>> weakest("proven", "modular")
+    'modular'
+    """
+    order: tuple[Certainty, ...] = ("proven", "certified", "modular", "undecided")
+    return max(certainties, key=order.index, default="proven")
+
+
 class Answer(StrEnum):
     """What is answered to a yes-or-no question."""
 

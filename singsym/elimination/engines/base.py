@@ -33,9 +33,8 @@ class EngineUnavailable(Undecided):
 class Task:
     """A computation with polynomials of one ring.
 
-    kind: "groebner", "minimal_primes", "primary_decomposition", "radical", "facstd" (pieces with the same
-    union of zero sets, not proven prime), "saturate" (by the product of `others`), "eliminate" (the
-    variables `others`) or "quotient" (by the ideal of `others`).
+    kind: "groebner" (reduced basis), "eliminate" (the variables `others`), "saturate" (by the product of
+    `others`), "minimal_primes", or "facstd" (pieces with the same union of zero sets, not proven prime).
     characteristic: 0, or a prime below 2^31 to compute modulo it.
     """
 
@@ -48,10 +47,7 @@ class Task:
 
 @dataclass(frozen=True)
 class EngineAnswer:
-    """The ideals that an engine returned, each as generators; one for most tasks.
-
-    The second tuple of a pair from "primary_decomposition" is the associated prime.
-    """
+    """The ideals that an engine returned, each as generators; one for most tasks."""
 
     ideals: tuple[tuple[Polynomial, ...], ...]
     engine: str

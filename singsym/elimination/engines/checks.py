@@ -11,11 +11,12 @@ import time
 from collections.abc import Callable, Sequence
 from itertools import combinations
 
-from flint import fmpz, fmpz_mpoly, fmpz_mpoly_vec
+from flint import fmpq_mpoly, fmpz, fmpz_mpoly, fmpz_mpoly_vec
 
 from singsym.elimination.engines.base import EngineAnswer, EngineFailure, Task
 from singsym.elimination.engines.division import remainder, s_polynomial
-from singsym.polynomials import Polynomial
+from singsym.elimination.verdict import Certainty
+from singsym.polynomials import Polynomial, Ring
 
 Exponents = tuple[int, ...]
 ModularBasis = frozenset[tuple[tuple[Exponents, int], ...]]
@@ -23,22 +24,24 @@ ModularBasis = frozenset[tuple[tuple[Exponents, int], ...]]
 _PAIR_SECONDS = 1.0
 
 
-def check_basis(task: Task, answer: EngineAnswer) -> bool:
-    """Check that the basis generates no less than the inputs and that it is a Groebner basis.
-
-    Raises `EngineFailure` where it is wrong; False where there were too many S-pairs to reduce them all.
-    """
-    basis = answer.ideals[0]
-    if not basis:
-        if any(task.generators):
-            raise EngineFailure(answer.engine, "returned the zero ideal for an ideal that is not")
-        return True
-    if any(p.is_constant for p in basis):
-        return True
-    vector = fmpz_mpoly_vec([p.integer() for p in basis], task.ring.integer_context)
-    if any(remainder(p.integer(), vector) for p in task.generators if p):
+def check_inputs(task: Task, answer: EngineAnswer) -> None:
+    """Raise `EngineFailure` unless the basis generates no less than the inputs."""
+    if any(reduced_by(answer.ideals[0], p) for p in task.generators):
         raise EngineFailure(answer.engine, "returned a wrong basis: an input does not reduce to 0 by it")
-    return _pairs_reduce(list(vector), vector, answer.engine)
+
+
+def reduced_by(basis: Sequence[Polynomial], polynomial: Polynomial) -> bool:
+    """Whether something is left of the polynomial after division by the basis."""
+    return bool(polynomial) and bool(_remainder(basis, polynomial))
+
+
+def check_pairs(task: Task, answer: EngineAnswer) -> bool:
+    """Raise `EngineFailure` unless it is a Groebner basis; False where not all S-pairs were reduced."""
+    integers = [p.integer() for p in answer.ideals[0]]
+    if len(integers) < 2:
+        return True
+    vector = fmpz_mpoly_vec(integers, task.ring.integer_context)
+    return _pairs_reduce(integers, vector, answer.engine)
 
 
 def _pairs_reduce(basis: list[fmpz_mpoly], vector: fmpz_mpoly_vec, engine: str) -> bool:
@@ -112,3 +115,61 @@ def compare_modulo_prime(
     raise EngineFailure(
         answer.engine, f"returned a wrong basis: it differs from that of {opponents[0]} modulo a prime"
     )
+
+
+def check_ideals(task: Task, answer: EngineAnswer, solve: Callable[[Task], EngineAnswer]) -> Certainty:
+    """Check an elimination, a saturation or a decomposition; `solve` gives checked Groebner bases.
+
+    Raises `EngineFailure` where it is wrong; "modular" where equality rests on a random choice.
+    """
+    ring, engine = task.ring, answer.engine
+    if task.kind == "eliminate":
+        free = all(p.degree(v.variables[0]) <= 0 for p in answer.ideals[0] for v in task.others)
+        basis = solve(Task("groebner", ring, task.generators)).ideals[0]
+        if not free or any(reduced_by(basis, p) for p in answer.ideals[0]):
+            raise EngineFailure(engine, "returned a wrong elimination ideal")
+        return "modular"
+    pieces = [solve(Task("groebner", ring, piece)).ideals[0] for piece in answer.ideals]
+    if any(reduced_by(piece, p) for piece in pieces for p in task.generators):
+        raise EngineFailure(engine, f"returned a wrong answer to {task.kind!r}: an input is not in it")
+    if task.kind == "saturate":
+        return "modular"
+    basis = solve(Task("groebner", ring, task.generators)).ideals[0]
+    _check_complete(ring, basis, pieces, engine, solve)
+    return "proven"
+
+
+def _check_complete(
+    ring: Ring,
+    basis: Sequence[Polynomial],
+    pieces: Sequence[Sequence[Polynomial]],
+    engine: str,
+    solve: Callable[[Task], EngineAnswer],
+) -> None:
+    """Raise where the pieces leave out a component.
+
+    Lemma: a generic element of a piece vanishes on no component that lies outside that piece; so the product
+    of such elements is in the radical exactly when every component lies in a piece.
+    """
+    rng = random.Random(len(basis))
+    product = ring.one
+    for piece in pieces:
+        useful = [p for p in piece if reduced_by(basis, p)]
+        if not useful:
+            return
+        element = sum((p * rng.randint(1, 9) for p in useful), start=ring.zero)
+        product = _remainder(basis, product * element)
+        if not product:
+            return
+    larger = ring.with_names((next(f"t{k}" for k in range(99) if f"t{k}" not in ring.names), *ring.names))
+    system = [larger.convert(p) for p in basis]
+    system.append(1 - larger.gens[0] * larger.convert(product.squarefree_part()))
+    if solve(Task("groebner", larger, tuple(system))).ideals[0] != (larger.one,):
+        raise EngineFailure(engine, "returned an incomplete decomposition: a component is missing")
+
+
+def _remainder(basis: Sequence[Polynomial], polynomial: Polynomial) -> Polynomial:
+    if not basis:
+        return polynomial
+    vector = fmpz_mpoly_vec([p.integer() for p in basis], polynomial.ring.integer_context)
+    return Polynomial(polynomial.ring, fmpq_mpoly(remainder(polynomial.integer(), vector)))

@@ -40,6 +40,7 @@ _DEFAULT = ("flint", "msolve", "singular")
 # seconds after which the next engine is asked, when there is a next one
 _PATIENCE = {"flint": 1.5, "msolve": 300.0, "singular": 300.0, "sympy": 300.0}
 _CHECK_SECONDS = 20.0
+_PROOF_SECONDS = 5.0
 
 _allowed: ContextVar[tuple[str, ...]] = ContextVar("engines", default=_DEFAULT)
 
@@ -91,14 +92,7 @@ def solve(task: Task, budget: Budget | None = None) -> EngineAnswer:
     failures = []
     for position, engine in enumerate(candidates):
         last = position == len(candidates) - 1
-        left = budget.remaining()
-        patience = (
-            None
-            if last
-            else _PATIENCE[engine.name]
-            if left is None
-            else min(_PATIENCE[engine.name], left / 2)
-        )
+        patience = None if last else min(_PATIENCE[engine.name], (budget.remaining() or 1e9) / 2)
         try:
             return _checked(task, _run(engine, task, budget.part(patience)), budget)
         except (EngineFailure, BudgetExceeded) as failure:
@@ -119,18 +113,42 @@ def _run(engine: Engine, task: Task, budget: Budget) -> EngineAnswer:
 
 def _checked(task: Task, answer: EngineAnswer, budget: Budget) -> EngineAnswer:
     """The answer, with a lower certainty where a part of the check could not be made."""
-    if not answer.ideals or task.kind != "groebner" or task.characteristic:
+    if task.characteristic:
         return answer
+    if task.kind != "groebner":
+        certainty = checks.check_ideals(task, answer, lambda t: solve(t, budget))
+        return replace(answer, certainty=certainty)
+    if len(answer.ideals) != 1:
+        raise EngineFailure(answer.engine, f"returned {len(answer.ideals)} bases for one ideal")
+    checks.check_inputs(task, answer)
     if answer.engine == flint.name:
         return answer
-    complete = checks.check_basis(task, answer)
+    complete = checks.check_pairs(task, answer)
     exact = flint.tiny(task)
     if exact is not None:
         if set(exact) != set(answer.ideals[0]):
             raise EngineFailure(answer.engine, "returned a wrong basis: it differs from FLINT's")
         return replace(answer, certainty="proven")
     compared = checks.compare_modulo_prime(task, answer, lambda t: _second_opinion(t, answer.engine, budget))
-    return answer if complete and compared else replace(answer, certainty="modular")
+    if not (complete and compared):
+        return replace(answer, certainty="modular")
+    if answer.certainty == "modular" and answer.ideals[0] == (task.ring.one,):
+        return _proven_unit(task, answer, budget)
+    return answer
+
+
+def _proven_unit(task: Task, answer: EngineAnswer, budget: Budget) -> EngineAnswer:
+    """The unit ideal once more by an engine that computes over Q, since msolve's word rests on primes."""
+    for engine in (singular, flint):
+        if has(engine.name):
+            try:
+                exact = engine.run(task, budget.part(_PROOF_SECONDS))
+            except (EngineFailure, BudgetExceeded) as failure:
+                log.debug("no proof: %s", failure)
+                continue
+            if exact.ideals == answer.ideals:
+                return exact
+    return answer
 
 
 def _second_opinion(task: Task, asked: str, budget: Budget) -> EngineAnswer | None:

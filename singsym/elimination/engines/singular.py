@@ -30,19 +30,11 @@ _COMMANDS = {
         "{ singsym_s = singsym_sat(singsym_s, singsym_j[singsym_k]); }"
         "list singsym_a = list(singsym_s);",
     ),
-    "quotient": ("", "list singsym_a = list(quotient(singsym_i, singsym_j));"),
-    "radical": ('LIB "primdec.lib";', "list singsym_a = list(radical(singsym_i));"),
     "facstd": ("", "list singsym_a = facstd(singsym_i);"),
     "minimal_primes": (
         'LIB "primdec.lib";',
         "list singsym_a; if (dim(std(singsym_i)) == 0) { singsym_a = minAssGTZ(singsym_i); }"
         "else { singsym_a = minAssChar(singsym_i); }",
-    ),
-    "primary_decomposition": (
-        'LIB "primdec.lib";',
-        "list singsym_b = primdecGTZ(singsym_i); list singsym_a; int singsym_k;"
-        "for (singsym_k = 1; singsym_k <= size(singsym_b); singsym_k++)"
-        "{ singsym_a = singsym_a + singsym_b[singsym_k]; }",
     ),
 }
 _SHOW = (
