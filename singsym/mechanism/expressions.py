@@ -8,7 +8,7 @@ Source: singsym's own grammar; exact numbers by SymPy (https://docs.sympy.org).
     power   = atom [("^" | "**") signed]            the exponent a whole number
     atom    = (number | name | pi | "(" sum ")" | ("sqrt" | "sin" | "cos") "(" sum ")") ["deg" | "°"]
 
-In limits and exclusions also the coordinates `A.x` of points, and cos(A), sin(A), angle(A), length(P) of joints.
+In limits and exclusions also coordinates `A.x` of points, and cos(A), sin(A), angle(A), length(P) of joints.
 """
 
 from __future__ import annotations

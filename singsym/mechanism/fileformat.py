@@ -134,6 +134,9 @@ def read(data: Mapping[str, Any], origin: str = "") -> tuple[Mechanism, tuple[Pr
         outputs = read_outputs(top["output"], links, reader)
     elif "dh" in top and links:
         outputs = (Twist(links[-1].name, "tool", TWISTS[reader.space]),)
+    inputs = read_inputs(top.get("inputs", []), joints, reader)
+    if "inputs" not in top and "dh" in top:
+        inputs = tuple(column for joint in joints for column in joint.columns)
     mobility = top.get("mobility")
     if mobility is not None and (isinstance(mobility, bool) or not isinstance(mobility, int) or mobility < 1):
         reader.report("mobility", kind_of(mobility), "a whole number from 1")
@@ -145,7 +148,7 @@ def read(data: Mapping[str, Any], origin: str = "") -> tuple[Mechanism, tuple[Pr
         ground=reader.text(top.get("ground", "ground"), "ground"),
         links=links,
         joints=joints,
-        inputs=read_inputs(top.get("inputs", []), joints, reader),
+        inputs=inputs,
         outputs=outputs,
         parameters=parameters,
         limits=read_limits(top.get("limits", {}), known, reader),

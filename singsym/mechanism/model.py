@@ -237,15 +237,22 @@ class Mechanism:
     def with_parameters(self, **values: Any) -> Mechanism:
         """The same mechanism with parameters set: numbers, text in the file's grammar, SymPy expressions.
 
-        A parameter that had a range keeps it, for `check` to compare.  Raises `MechanismError` for an
-        unknown name.  See `mechanism.load` for an example.
+        None takes a value away, so that the parameter stays symbolic within its range.  A range is kept,
+        for `check` to compare.  Raises `MechanismError` for an unknown name.
+
+        >>> from singsym.mechanism import load
+        >>> load("2r").with_parameters(l1="3/2", l2=None).resolved.parameters
+        (Parameter(name='l2', value=None, low=0, high=None),)
         """
         names = {parameter.name for parameter in self.parameters}
         unknown = [name for name in values if name not in names]
         if unknown:
             known = f"one of {', '.join(sorted(names))}" if names else "nothing: it has no parameters"
             raise MechanismError(Problem("parameters", name, known, file=self.origin) for name in unknown)
-        read = {k: expression(v, names, place=f"parameters.{k}", file=self.origin) for k, v in values.items()}
+        read = {
+            name: None if v is None else expression(v, names, place=f"parameters.{name}", file=self.origin)
+            for name, v in values.items()
+        }
         changed = tuple(replace(p, value=read.get(p.name, p.value)) for p in self.parameters)
         return replace(self, parameters=changed)
 
