@@ -1,0 +1,55 @@
+"""The joint formulation: joint angles as (cosine, sine) along a spanning tree, closure at the cut joints.
+
+Source: Zlatanov, Fenton, Benhabib (1998), section 5 (angles of the legs, three distances of the platform);
+a helical joint's angle and slide are taken as independent, since the helix is Zariski dense in angle x slide: no
+polynomial in cosine, sine and slide vanishes on it.
+"""
+
+from __future__ import annotations
+
+from singsym.kinematics.dimensions import dimensions
+
+from singsym.kinematics.formulations import local
+from singsym.kinematics.formulations.assembly import Assembly, placement
+from singsym.kinematics.formulations.floating import hang, loose_parts, positive_lengths
+from singsym.kinematics.formulations.frames import Algebra, rigid
+from singsym.kinematics.formulations.tree import by_branch, grow, plan, spanning_steps
+from singsym.kinematics.placement import Placement
+from singsym.mechanism.model import Mechanism
+
+_ANGLES = ("auto", "absolute", "relative")
+
+
+def place(mechanism: Mechanism, *, angles: str = "auto", quaternion: bool = False) -> Placement:
+    """Configuration variables, loop equations and screws in joint angles and slides.
+
+    angles: "relative" has each joint's own angle, "absolute" counts the angles of successive parallel axes from the
+    first of them, which keeps closure equations of low degree; "auto" is absolute where there are loops.
+    quaternion: a platform on spherical joints is placed by a position and a quaternion, a double cover.
+    Raises `ValueError` for an unattached link, or a part on spherical joints that is no platform, rod or strut.
+    """
+    if angles not in _ANGLES:
+        raise ValueError(f"angles={angles!r}: expected one of {', '.join(_ANGLES)}")
+    geometry = local.Geometry(mechanism)
+    tree = spanning_steps(mechanism)
+    open_chain = len(mechanism.joints) < len(mechanism.links)
+    absolute = angles == "absolute" or (angles == "auto" and not open_chain)
+    steps = plan(mechanism, geometry, tree, absolute)
+    reached = {mechanism.ground, *(step.child for step in steps)}
+    platforms, struts = loose_parts(mechanism, geometry, reached, quaternion, positive_lengths(mechanism))
+    names = [v for step in by_branch(steps) for v in step.variables]
+    names += [v for part in (*platforms, *struts) for v in part.names]
+    sized = dimensions(mechanism, names)
+    algebra = Algebra(sized.ring, sized.number)
+    origin = rigid(algebra, algebra.origin, algebra.axes)
+    grown = grow(geometry, algebra, {mechanism.ground: origin}, steps)
+    assembly = Assembly(mechanism, geometry, algebra, grown.bodies, list(grown.circles), grown.values)
+    assembly.circles = () if open_chain else grown.circles
+    hang(assembly, platforms, struts)
+    used = {step.joint.name for step in steps}
+    assembly.close(
+        joint
+        for joint in mechanism.joints
+        if joint.name not in used and joint.first in reached and joint.second in reached
+    )
+    return placement(assembly, sized, "joint")
