@@ -19,6 +19,7 @@ from singsym.mechanism.model import (
     Twist,
 )
 from singsym.mechanism.problems import MechanismError, Problem
+from singsym.mechanism.writer import dumps
 
 __all__ = [
     "Exclusion",
@@ -36,6 +37,7 @@ __all__ = [
     "Twist",
     "check",
     "define",
+    "dumps",
     "load",
     "loads",
 ]
