@@ -1,8 +1,8 @@
 """What a joint asks of the two bodies it connects, and its screws.
 
 Source: the lower pairs as constraints between bodies (textbook); screws as in Zlatanov, Fenton, Benhabib
-(1998), section 2.1, in the order (omega, v).  Directions are equated as vectors, never by their angle alone, so
-that no mirror image enters.
+(1998), section 2.1, in the order (omega, v).  Directions are equated as vectors, never by their angle alone,
+so that no mirror image enters.
 """
 
 from __future__ import annotations

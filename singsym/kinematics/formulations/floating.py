@@ -1,7 +1,7 @@
 """Links that hang on spherical joints alone: platforms, rods and struts, placed by points.
 
-Source: natural coordinates, Garcia de Jalon, Bayo (1994), chapter 2; the three distances of a platform on three
-spherical joints as in Zlatanov, Fenton, Benhabib (1998), section 5.
+Source: natural coordinates, Garcia de Jalon, Bayo (1994), chapter 2; the three distances of a platform on
+three spherical joints as in Zlatanov, Fenton, Benhabib (1998), section 5.
 """
 
 from __future__ import annotations
@@ -142,9 +142,9 @@ def _strut(
         )
     if not straight:
         raise ValueError(
-            f"{', '.join(part)}: links reached through spherical joints only must be one link on three or more "
-            "of them, a rod between two, or two links with a slide along the line of two; fix a link's place by "
-            "another joint"
+            f"{', '.join(part)}: links reached through spherical joints only must be one link on three or "
+            "more of them, a rod between two, or two links with a slide along the line of two; fix a link's "
+            "place by another joint"
         )
     names: tuple[str, ...] = ()
     if slide is not None:
@@ -269,7 +269,7 @@ def hang(assembly: Assembly, platforms: Sequence[Platform], struts: Sequence[Str
                 assembly.values[strut.slide.name] = JointValue(length=length)
 
 
-def _offset(geometry: local.Geometry, strut: Strut, slide: Joint) -> local.Vector:
+def _offset(geometry: local.Geometry, strut: Strut, slide: Joint) -> sympy.Expr:
     """How much longer the strut is than its slide."""
     extra = [
         local.dot(local.minus(hanger.inner, point), axis)

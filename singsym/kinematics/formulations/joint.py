@@ -1,8 +1,8 @@
 """The joint formulation: joint angles as (cosine, sine) along a spanning tree, closure at the cut joints.
 
 Source: Zlatanov, Fenton, Benhabib (1998), section 5 (angles of the legs, three distances of the platform);
-a helical joint's angle and slide are taken as independent, since the helix is Zariski dense in angle x slide: no
-polynomial in cosine, sine and slide vanishes on it.
+a helical joint's angle and slide are taken as independent, since the helix is Zariski dense in angle x slide:
+no polynomial in cosine, sine and slide vanishes on it.
 """
 
 from __future__ import annotations
@@ -23,10 +23,11 @@ _ANGLES = ("auto", "absolute", "relative")
 def place(mechanism: Mechanism, *, angles: str = "auto", quaternion: bool = False) -> Placement:
     """Configuration variables, loop equations and screws in joint angles and slides.
 
-    angles: "relative" has each joint's own angle, "absolute" counts the angles of successive parallel axes from the
-    first of them, which keeps closure equations of low degree; "auto" is absolute where there are loops.
+    angles: "relative" has each joint's own angle, "absolute" counts the angles of successive parallel axes
+    from the first, which keeps closure equations of low degree; "auto" is absolute where there are loops.
     quaternion: a platform on spherical joints is placed by a position and a quaternion, a double cover.
-    Raises `ValueError` for an unattached link, or a part on spherical joints that is no platform, rod or strut.
+    Raises `ValueError` for an unattached link, and a part on spherical joints that is not one of platform,
+    rod, strut.
     """
     if angles not in _ANGLES:
         raise ValueError(f"angles={angles!r}: expected one of {', '.join(_ANGLES)}")
@@ -38,7 +39,8 @@ def place(mechanism: Mechanism, *, angles: str = "auto", quaternion: bool = Fals
     reached = {mechanism.ground, *(step.child for step in steps)}
     platforms, struts = loose_parts(mechanism, geometry, reached, quaternion, positive_lengths(mechanism))
     names = [v for step in by_branch(steps) for v in step.variables]
-    names += [v for part in (*platforms, *struts) for v in part.names]
+    names += [v for platform in platforms for v in platform.names]
+    names += [v for strut in struts for v in strut.names]
     sized = dimensions(mechanism, names)
     algebra = Algebra(sized.ring, sized.number)
     origin = rigid(algebra, algebra.origin, algebra.axes)

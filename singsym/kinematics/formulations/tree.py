@@ -23,8 +23,8 @@ _LENGTHS = {JointKind.P: 1, JointKind.H: 1, JointKind.C: 1, JointKind.E: 2}
 class Turn:
     """A rotation by a variable angle about `axis`, then by the constant `after`.
 
-    name: of its angle (variables c_name, s_name).  sense: 0 for an angle relative to the parent; 1 or -1 where
-    the angle is counted from the start of a run of parallel axes, to which the joint adds or subtracts.
+    name: of its angle (variables c_name, s_name).  sense: 0 for an angle relative to the parent; 1 or -1
+    where the angle is counted from the start of a run of parallel axes, to which the joint adds or subtracts.
     """
 
     axis: local.Vector
