@@ -1,0 +1,299 @@
+"""Proving that an ideal is prime over Q, or finding polynomials along which its variety splits.
+
+Source: G.-M. Greuel, G. Pfister, "A Singular Introduction to Commutative Algebra", §4.2-4.3 (reduction to
+dimension zero over independent variables); the lemmas at the functions make it exact at one rational fibre.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import combinations, combinations_with_replacement
+
+from flint import fmpq, fmpq_mat, fmpq_poly, fmpz_mat, fmpz_mpoly_vec
+
+from singsym.elimination.budget import current
+from singsym.elimination.ideal import Ideal
+from singsym.polynomials import Polynomial, Ring
+from singsym.varieties.real.quotient import Algebra, quotient_algebra, standard_monomials
+
+Exponents = tuple[int, ...]
+_LARGEST_FIBRE = 120
+_LARGEST_SEARCH = 330
+
+
+@dataclass(frozen=True)
+class Splitting:
+    """What was found: V(I) is the union of the V(I + factor), or I is prime, or (neither) nothing.
+
+    `prime` with `complete` False says that V(I) has one component of full dimension, and maybe smaller ones.
+    """
+
+    factors: tuple[Polynomial, ...] = ()
+    prime: bool = False
+    complete: bool = False
+
+
+def leading_exponents(basis: Sequence[Polynomial]) -> list[Exponents]:
+    """The exponents of the leading terms."""
+    return [p.terms()[0][0] for p in basis]
+
+
+def independent_variables(leads: Sequence[Exponents], count: int) -> tuple[int, ...]:
+    """Largest set of variables (indices) with no power product among the leading monomials' multiples.
+
+    Their number is the dimension of the ideal; variables without a pure power are preferred.
+
+    >>> independent_variables([(2, 0, 0), (1, 1, 0)], 3)
+    (1, 2)
+    """
+    supports = {frozenset(i for i, e in enumerate(m) if e) for m in leads}
+    minimal = [s for s in supports if not any(t < s for t in supports)]
+    pure = {i for s in minimal if len(s) == 1 for i in s}
+    free = [i for i in range(count) if i not in pure]
+    minimal = [s for s in minimal if len(s) > 1]
+    for size in range(len(free) + 1):
+        for left_out in combinations(free, size):
+            if all(not s.isdisjoint(left_out) for s in minimal):
+                return tuple(i for i in free if i not in left_out)
+    return ()
+
+
+@dataclass(frozen=True)
+class Coordinates:
+    """An ideal in coordinates in which the last `dimension` variables are independent.
+
+    `back` maps a polynomial of these coordinates to the original ring through `images`.
+    """
+
+    ring: Ring
+    basis: tuple[Polynomial, ...]
+    dimension: int
+    original: Ring
+    images: tuple[tuple[str, Polynomial], ...] = ()
+
+    def back(self, p: Polynomial) -> Polynomial:
+        return self.original.convert(p).substitute(dict(self.images))
+
+    @property
+    def split(self) -> int:
+        return len(self.ring.names) - self.dimension
+
+    @property
+    def is_finite(self) -> bool:
+        """Whether Q[x]/I is a finite module over Q[u]: every dependent variable has a pure power."""
+        leads = leading_exponents(self.basis)
+        return all(any(m[i] and not any(m[:i] + m[i + 1 :]) for m in leads) for i in range(self.split))
+
+    @property
+    def is_free(self) -> bool:
+        """Whether no leading monomial involves u; with finiteness the module is free, hence I unmixed."""
+        return not any(any(m[self.split :]) for m in leading_exponents(self.basis))
+
+
+def coordinates(ideal: Ideal, rng: random.Random) -> Iterator[Coordinates]:
+    """The ideal in its own coordinates, independent variables last, then after small linear changes."""
+    ring = ideal.ring
+    basis = ideal.groebner_basis()
+    chosen = independent_variables(leading_exponents(basis), len(ring.names))
+    last = tuple(ring.names[i] for i in chosen)
+    first = tuple(n for n in ring.names if n not in last)
+    turned = Ring(first + last, "degrevlex", ring.constants)
+    if turned.names != ring.names:
+        basis = Ideal(turned, tuple(turned.convert(p) for p in basis)).groebner_basis()
+    yield Coordinates(turned, basis, len(last), ring)
+    if not last:
+        return
+    constants = {c.name for c in ring.constants}
+    movable = [n for n in first if n not in constants]
+    for _ in range(2):
+        shift = {
+            u: sum((turned.gen(n) * rng.choice((-1, 1, 2)) for n in movable), start=turned.zero) for u in last
+        }
+        there = {u: turned.gen(u) + s for u, s in shift.items()}
+        changed = Ideal(turned, tuple(p.substitute(there) for p in basis)).groebner_basis()
+        images = tuple((u, ring.convert(turned.gen(u) - s)) for u, s in shift.items())
+        yield Coordinates(turned, changed, len(last), ring, images)
+
+
+def analyse(ideal: Ideal, *, unmixed: bool = False, seed: int = 0) -> Splitting:
+    """Prove an ideal prime over Q, or split its variety, or find nothing.
+
+    unmixed: whether all components are known to have the dimension of the ideal.
+
+    >>> x, y = Ring(("x", "y")).gens
+    >>> analyse(Ideal(x.ring, (x**2 - 2, y**2 - 2))).factors
+    (x - y, x + y)
+    >>> analyse(Ideal(x.ring, (x**2 - 2, y**2 - 3))).prime
+    True
+    """
+    rng = random.Random(seed)
+    best = Splitting()
+    for place in coordinates(ideal, rng):
+        current().check("decomposition")
+        found = _at_fibre(place, rng)
+        if found.factors:
+            return Splitting(tuple(place.back(f).primitive() for f in found.factors))
+        if found.prime:
+            best = Splitting(prime=True, complete=unmixed or place.is_free)
+            if best.complete:
+                return best
+    return best
+
+
+def _at_fibre(place: Coordinates, rng: random.Random) -> Splitting:
+    """One rational fibre u = u0.
+
+    Lemma: if Q[x]/I is finite over Q[u], u is independent modulo I and the algebra of one fibre is a field
+    Q(l), then near u0 the module is generated by powers of l (Nakayama) and is Q[u][l]/(m), m irreducible
+    as it is so at u0: one component dominates u-space, and it is reduced there.
+    """
+    ring = place.ring
+    inner = ring.with_names(ring.names[: place.split])
+    if not inner.names:
+        return Splitting(prime=True)
+    for attempt in range(2):
+        values = {
+            u: fmpq(rng.randint(2, 9 + 20 * attempt), rng.choice((1, 1, 2)))
+            for u in ring.names[place.split :]
+        }
+        special = tuple(inner.convert(p.substitute(values)) for p in place.basis)
+        basis = Ideal(inner, tuple(p for p in special if p)).groebner_basis()
+        if len(independent_variables(leading_exponents(basis), len(inner.names))) or basis[0].is_constant:
+            continue
+        if len(standard_monomials(leading_exponents(basis), len(inner.names))) > _LARGEST_FIBRE:
+            return Splitting()
+        fibre = quotient_algebra(inner, basis)
+        for form in _forms(inner, rng):
+            minimal = _minimal_polynomial(fibre, form)
+            factors = minimal.factor()[1]
+            if len(factors) == 1 and factors[0][1] == 1:
+                if minimal.degree() == fibre.dimension:
+                    return Splitting(prime=place.is_finite)
+                continue
+            pieces = _lift(place, ring.convert(form), factors)
+            if pieces:
+                return Splitting(pieces)
+    return Splitting()
+
+
+def _minimal_polynomial(fibre: Algebra, form: Polynomial) -> fmpq_poly:
+    """The minimal polynomial over Q of a linear form in the algebra."""
+    matrix = fmpq_mat(fibre.dimension, fibre.dimension)
+    for exponents, c in form.terms():
+        matrix += fibre.matrices[exponents.index(1)] * c
+    return matrix.minpoly()
+
+
+def _forms(ring: Ring, rng: random.Random) -> Iterator[Polynomial]:
+    """A random linear form (which separates points), then the variables, then more forms."""
+
+    def mixed(width: int) -> Polynomial:
+        return sum((g * rng.randint(-width, width) for g in ring.gens), start=ring.gens[-1])
+
+    yield mixed(3)
+    yield from ring.gens
+    yield mixed(9)
+
+
+def _lift(
+    place: Coordinates, form: Polynomial, factors: Sequence[tuple[fmpq_poly, int]]
+) -> tuple[Polynomial, ...]:
+    """Turn the factors of a form's minimal polynomial in a fibre into factors over Q[u], if there are any.
+
+    The eliminant of (u, form) is a multiple of every splitting; each of its factors is irreducible over Q.
+    """
+    if not place.dimension:
+        return tuple(
+            sum((form**i * c for i, c in enumerate(f.coeffs())), start=place.ring.zero) for f, _ in factors
+        )
+    eliminant = relation(place.basis, (*place.ring.gens[place.split :], form))
+    if eliminant is None:
+        return ()
+    pieces = eliminant.factors()
+    if len(pieces) == 1 and pieces[0][1] == 1:
+        return ()
+    names = eliminant.ring.names
+    images = dict(zip(names, (*place.ring.gens[place.split :], form), strict=True))
+    return tuple(_compose(p, [images[n] for n in names], place.ring) for p, _ in pieces)
+
+
+def _compose(p: Polynomial, images: Sequence[Polynomial], ring: Ring) -> Polynomial:
+    value = p.value.compose(*(q.value for q in images), ctx=ring.context)
+    return Polynomial(ring, value)
+
+
+def relation(basis: Sequence[Polynomial], forms: Sequence[Polynomial]) -> Polynomial | None:
+    """The polynomial of least total degree that vanishes on `forms` modulo a Groebner basis; None if too large.
+
+    Where the relations among the forms are a principal ideal it is their generator.  The result lives in a
+    ring t0, t1, ... of its own.
+
+    >>> x, y = Ring(("x", "y")).gens
+    >>> relation((x**2 + y**2 - 1,), (x + y, x - y))
+    t0^2 + t1^2 - 2
+    """
+    ring = basis[0].ring
+    tagged = Ring((*ring.names, "_tag"), ring.order)
+    vector = fmpz_mpoly_vec([tagged.convert(p).integer() for p in basis], tagged.integer_context)
+    tag = tagged.gen("_tag")
+    images = [tagged.convert(f) for f in forms]
+    own = Ring(tuple(f"t{i}" for i in range(len(forms))))
+
+    def reduce(p: Polynomial) -> Polynomial:
+        # The tag carries the unknown scalar of FLINT's quasi-division: NF = remainder / its coefficient.
+        remainder = Polynomial(
+            tagged,
+            tagged.context.from_dict(dict((p + tag).integer().reduction_primitive_part(vector).terms())),
+        )
+        scale = remainder.coefficient("_tag", 1).constant
+        return (remainder - tag * scale) / scale
+
+    exponents: list[Exponents] = [(0,) * len(forms)]
+    values = {exponents[0]: reduce(tagged.one)}
+    degree = 0
+    while True:
+        degree += 1
+        for chosen in combinations_with_replacement(range(len(forms)), degree):
+            current().check("relation")
+            m = tuple(chosen.count(i) for i in range(len(forms)))
+            i = chosen[-1]
+            values[m] = reduce(values[(*m[:i], m[i] - 1, *m[i + 1 :])] * images[i])
+            exponents.append(m)
+        if len(exponents) > _LARGEST_SEARCH:
+            return None
+        found = _dependency([values[m] for m in exponents])
+        if found is not None:
+            return own.from_dict({m: c for m, c in zip(exponents, found, strict=True) if c}).primitive()
+
+
+def _dependency(rows: Sequence[Polynomial]) -> list[fmpq] | None:
+    """A linear relation over Q between polynomials, or None."""
+    monomials = sorted({m for p in rows for m, _ in p.terms()})
+    position = {m: j for j, m in enumerate(monomials)}
+    if len(monomials) >= len(rows) and _independent_modulo_prime(rows, position):
+        return None
+    scales, columns = [], [[0] * len(rows) for _ in monomials]
+    for i, p in enumerate(rows):
+        whole = p.integer().to_dict() if p else {}
+        scales.append(fmpq(whole[p.terms()[0][0]]) / p.terms()[0][1] if p else fmpq(1))
+        for m, c in whole.items():
+            columns[position[m]][i] = int(c)
+    kernel, nullity = fmpz_mat(columns).nullspace()
+    if not nullity:
+        return None
+    return [fmpq(kernel[i, 0]) * scales[i] for i in range(len(rows))]
+
+
+def _independent_modulo_prime(rows: Sequence[Polynomial], position: dict[Exponents, int]) -> bool:
+    from flint import nmod_mat
+
+    prime = 2**61 - 1
+    table = [0] * (len(rows) * len(position))
+    for i, p in enumerate(rows):
+        if not p:
+            return False
+        for m, c in p.integer().to_dict().items():
+            table[i * len(position) + position[m]] = int(c) % prime
+    return bool(nmod_mat(len(rows), len(position), table, prime).rank() == len(rows))
