@@ -1,0 +1,354 @@
+"""Proofs that a polynomial has no zero on the feasible set, and short forms modulo the loop equations.
+
+Source: Zlatanov, Fenton, Benhabib (1998), section 4.2: a passive velocity may be eliminated only where it is
+uniquely determined at every feasible configuration.  The proofs are elementary; none found means unknown.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from math import inf, isqrt
+
+from flint import fmpq
+
+from singsym.kinematics.placement import ConfigurationSpace
+from singsym.polynomials import Polynomial
+
+LONGEST = 400
+"""Polynomials with more terms are not treated modulo the equations."""
+
+Bound = Fraction | float
+Interval = tuple[Bound, Bound]
+
+
+def _fraction(number: fmpq) -> Fraction:
+    return Fraction(int(number.p), int(number.q))
+
+
+def remainder(polynomial: Polynomial, divisor: Polynomial, name: str) -> Polynomial:
+    """The remainder as polynomials in one variable, where the divisor's leading coefficient is rational.
+
+    >>> from singsym.polynomials import Ring
+    >>> c, s = Ring(("c", "s")).gens
+    >>> remainder(s**3, c**2 + s**2 - 1, "s")
+    -c^2*s + s
+    """
+    degree = divisor.degree(name)
+    lead = divisor.coefficient(name, degree)
+    x = polynomial.ring.gen(name)
+    while (power := polynomial.degree(name)) >= degree:
+        top = polynomial.coefficient(name, power) / lead.constant
+        polynomial = polynomial - top * x ** (power - degree) * divisor
+    return polynomial
+
+
+def short_text(polynomial: Polynomial, longest: int = 8) -> str:
+    """The polynomial as text, cut after some terms with the number of those left out."""
+    if len(polynomial) <= longest:
+        return str(polynomial)
+    first = polynomial.ring.from_dict(dict(polynomial.terms()[:longest]))
+    return f"{first} + ... ({len(polynomial) - longest} more terms)"
+
+
+@dataclass(frozen=True, eq=False)
+class Certifier:
+    """What the equations, exclusions and inequalities of a configuration space prove about polynomials.
+
+    >>> from singsym.polynomials import Ring
+    >>> R = Ring(("c", "s"))
+    >>> c, s = R.gens
+    >>> certifier = Certifier(ConfigurationSpace(R, (c**2 + s**2 - 1,)))
+    >>> certifier.reason(c**2 + s**2)
+    'equal to 1 on the configuration space'
+    >>> certifier.reason(5 + 4 * c)
+    'between 1 and 9 on the configuration space'
+    >>> certifier.reason(c) is None
+    True
+    """
+
+    space: ConfigurationSpace
+
+    @cached_property
+    def _known(self) -> dict[Polynomial, str | None]:
+        return {}
+
+    @cached_property
+    def _squares(self) -> tuple[tuple[Polynomial, tuple[str, ...]], ...]:
+        """Equations a v^2 + b w^2 + ... = positive constant, with their variables; minimal polynomials."""
+        ring = self.space.ring
+        found: list[tuple[Polynomial, tuple[str, ...]]] = []
+        for constant, relation in zip(ring.constants, ring.relations, strict=True):
+            found.append((relation, (constant.name,)))
+        fixed = {c.name for c in self.space.ring.constants}
+        for equation in self.space.equations:
+            names = equation.variables
+            pure = all(sum(m) in (0, 2) and max(m) in (0, 2) for m, _ in equation.terms())
+            if pure and len(equation) == len(names) + 1 and equation.constant and not fixed & {*names}:
+                sign = -1 if equation.constant > 0 else 1
+                if all(sign * c > 0 for m, c in equation.terms() if any(m)):
+                    found.append((equation * sign, names))
+        return tuple(found)
+
+    # -- short forms ---------------------------------------------------------------------------------
+
+    def forms(self, polynomial: Polynomial) -> Iterator[Polynomial]:
+        """Other polynomials with the same values on the configuration space; the first is a normal form
+        modulo the sums of squares, in which equal polynomials on circles and spheres are identical."""
+        if len(polynomial) > LONGEST:
+            return
+        for place in (-1, 0):
+            yield self._without_squares(polynomial, place)
+
+    def normal_form(self, polynomial: Polynomial) -> Polynomial:
+        """The normal form modulo the equations that are sums of squares of variables."""
+        return self._without_squares(polynomial, -1)
+
+    def _without_squares(self, polynomial: Polynomial, place: int) -> Polynomial:
+        for equation, names in self._squares:
+            if polynomial.degree(names[place]) >= equation.degree(names[place]):
+                polynomial = remainder(polynomial, equation, names[place])
+        return polynomial
+
+    def shorten(self, polynomial: Polynomial) -> Polynomial:
+        """A polynomial with the same values on the configuration space, with fewer terms where one is found.
+
+        Takes away rational multiples of equations, of variables in them at most one, as long as it helps.
+        """
+        best = polynomial
+        if polynomial.total_degree < 2 or len(polynomial) > LONGEST:
+            return polynomial
+        for form in self.forms(polynomial):
+            if len(form) < len(best):
+                best = form
+        while (shorter := self._shorter(best)) is not None:
+            best = shorter
+        return best
+
+    def _shorter(self, polynomial: Polynomial) -> Polynomial | None:
+        terms = dict(polynomial.terms())
+        for equation in self.space.equations:
+            for monomial, c in equation.terms():
+                if any(monomial) and (own := terms.get(monomial)) is not None:
+                    candidate = polynomial - equation * (own / c)
+                    if len(candidate) < len(polynomial):
+                        return candidate
+        return None
+
+    # -- proofs --------------------------------------------------------------------------------------
+
+    def reason(self, polynomial: Polynomial) -> str | None:
+        """Why the polynomial has no zero on the feasible set, in words; None where no proof was found."""
+        if polynomial.is_constant:
+            return f"the constant {polynomial}" if polynomial else None
+        if polynomial not in self._known:
+            self._known[polynomial] = self._prove(polynomial)
+        return self._known[polynomial]
+
+    def _prove(self, polynomial: Polynomial) -> str | None:
+        if (found := self._prove_irreducible(polynomial)) is not None:
+            return found
+        if len(polynomial) > LONGEST:
+            return None
+        for form in dict.fromkeys((polynomial, *self.forms(polynomial), self.shorten(polynomial))):
+            factors = form.factors()
+            if len(factors) > 1 or (factors and factors[0][1] > 1):
+                reasons = [self._prove_irreducible(f) for f, _ in factors]
+                if None not in reasons:
+                    parts = [
+                        f"{short_text(f)} is {why}" for (f, _), why in zip(factors, reasons, strict=True)
+                    ]
+                    return "a product: " + "; ".join(parts)
+        return self._prove_square(polynomial)
+
+    def _prove_square(self, polynomial: Polynomial) -> str | None:
+        """By factors of the square, as in s^2 = (1 - c)(1 + c)."""
+        for form in self.forms(polynomial * polynomial) if len(polynomial) <= 10 else ():
+            factors = [f for f, _ in form.factors()]
+            if len(factors) > 1 and all(self._prove_irreducible(f) for f in factors):
+                parts = [f"{short_text(f)}, {self._prove_irreducible(f)}" for f in factors]
+                return "a divisor, in the square, of nonzero factors: " + "; ".join(parts)
+        return None
+
+    def _prove_irreducible(self, polynomial: Polynomial) -> str | None:
+        forms = dict.fromkeys((polynomial, self.shorten(polynomial), *self.forms(polynomial)))
+        for form in forms:
+            if form.is_constant and form:
+                return f"equal to {form} on the configuration space"
+        for positive in self.space.positive:
+            if any(form and form.divides(positive) for form in forms):
+                return f"a divisor of {short_text(positive)} > 0"
+        for form in forms:
+            if (found := self._sign(form)) is not None:
+                return found
+        return self._excluded(polynomial, tuple(forms))
+
+    def _sign(self, polynomial: Polynomial) -> str | None:
+        if self._is_positive_sum(polynomial) or self._is_positive_sum(-polynomial):
+            return f"{short_text(polynomial)}, whose terms have one sign and do not all vanish"
+        if not self._straddles_zero(polynomial):
+            low, high = _range(polynomial, self._bounds)
+            if low > 0 or high < 0:
+                return f"between {low} and {high} on the configuration space"
+        if is_definite(polynomial) or is_definite(-polynomial):
+            return f"{short_text(polynomial)}, a sum of squares and a constant"
+        return None
+
+    def _is_positive_sum(self, polynomial: Polynomial) -> bool:
+        """All terms nonnegative and one of them positive."""
+        strict = False
+        for exponents, c in polynomial.terms():
+            known = [(self._signs[i], e % 2) for i, e in enumerate(exponents) if e]
+            signs = [sign if odd else max(sign, 1) for sign, odd in known]
+            if c < 0 or 0 in signs:
+                return False
+            strict = strict or all(s == 2 for s in signs)
+        return strict
+
+    @cached_property
+    def _signs(self) -> tuple[int, ...]:
+        """For each variable: 2 where known positive, 1 where known nonnegative, 0 otherwise."""
+        low = [self._bounds[name][0] for name in self.space.ring.names]
+        strict = {p.variables[0] for p in self.space.positive if len(p) == 1 and p.total_degree == 1}
+        strict |= {
+            p.variables[0]
+            for p in self.space.positive
+            if len(p.variables) == 1 and p.total_degree == 1 and p.terms()[0][1] > 0 and p.constant <= 0
+        }
+        return tuple(
+            2 if name in strict or bound > 0 else int(bound >= 0)
+            for name, bound in zip(self.space.ring.names, low, strict=True)
+        )
+
+    @cached_property
+    def _bounds(self) -> Mapping[str, Interval]:
+        """An interval for each variable: from sums of squares, from limits, from constants."""
+        bounds: dict[str, Interval] = dict.fromkeys(self.space.ring.names, (-inf, inf))
+        for equation, names in self._squares[len(self.space.ring.constants) :]:
+            for name in names:
+                square = -_fraction(equation.constant) / _fraction(equation.coefficient(name, 2).constant)
+                root = _root_above(square)
+                bounds[name] = _meet(bounds[name], (-root, root))
+        for constant in self.space.ring.constants:
+            bounds[constant.name] = (constant.low, constant.high)
+        for bound in (*self.space.positive, *self.space.nonnegative):
+            names = tuple(set(bound.variables) - {c.name for c in self.space.ring.constants})
+            if len(names) != 1 or bound.degree(names[0]) != 1:
+                continue
+            slope = bound.coefficient(names[0], 1)
+            if slope.is_constant:
+                rest = bound - slope * bound.ring.gen(names[0])
+                ends = [-x / _fraction(slope.constant) for x in _range(rest, bounds)]
+                limit = (min(ends), inf) if slope.constant > 0 else (-inf, max(ends))
+                bounds[names[0]] = _meet(bounds[names[0]], limit)
+        return bounds
+
+    @cached_property
+    def _float_bounds(self) -> tuple[tuple[float, float], ...]:
+        return tuple((float(low), float(high)) for low, high in self._bounds.values())
+
+    def _straddles_zero(self, polynomial: Polynomial) -> bool:
+        """A first look in floats, which spares exact bounds where they cannot have one sign."""
+        low = high = 0.0
+        for exponents, c in polynomial.terms():
+            ends = [int(c.p) / int(c.q)] * 2
+            for (a, b), e in zip(self._float_bounds, exponents, strict=True):
+                if e:
+                    power = sorted((a ** int(e), b ** int(e)))
+                    if e % 2 == 0 and a < 0 < b:
+                        power[0] = 0.0
+                    products = [x * y if x and y else 0.0 for x in ends for y in power]
+                    ends = [min(products), max(products)]
+            low, high = low + ends[0], high + ends[1]
+        return low < -1e-6 and high > 1e-6
+
+    def _excluded(self, polynomial: Polynomial, forms: tuple[Polynomial, ...]) -> str | None:
+        """Whether a real zero of an irreducible polynomial is a common zero of an exclusion's polynomials.
+
+        So it is where it divides all of them, or where it is a positive multiple of their squares' sum.
+        """
+        for exclusion in self.space.exclusions:
+            words = "nonzero outside the excluded " + ", ".join(f"{short_text(g, 4)} = 0" for g in exclusion)
+            if any(form and all(form.divides(g) for g in exclusion) for form in forms):
+                return words
+            total = sum((g * g for g in exclusion), start=self.space.ring.zero)
+            if len(total) > LONGEST:
+                continue
+            sums = dict.fromkeys((total, self.shorten(total), *self.forms(total)))
+            if any(form and form.divides(s) for form in forms for s in sums if s):
+                return words
+        return None
+
+
+def _range(polynomial: Polynomial, bounds: Mapping[str, Interval]) -> Interval:
+    """Bounds of the polynomial by interval arithmetic, exact rationals or infinite."""
+    low: Bound = Fraction(0)
+    high: Bound = Fraction(0)
+    intervals = [bounds[name] for name in polynomial.ring.names]
+    for exponents, c in polynomial.terms():
+        term: Interval = (_fraction(c), _fraction(c))
+        for interval, e in zip(intervals, exponents, strict=True):
+            if e:
+                term = _product(term, _power(interval, int(e)))
+        low, high = low + term[0], high + term[1]
+    return low, high
+
+
+def _meet(a: Interval, b: Interval) -> Interval:
+    return max(a[0], b[0]), min(a[1], b[1])
+
+
+def _root_above(square: Fraction) -> Fraction:
+    """A rational not below the square root, equal to it where it is rational."""
+    p, q = square.numerator, square.denominator
+    root = isqrt(p * q)
+    return Fraction(root if root * root == p * q else root + 1, q)
+
+
+def _times(a: Bound, b: Bound) -> Bound:
+    return Fraction(0) if a == 0 or b == 0 else a * b
+
+
+def _product(a: Interval, b: Interval) -> Interval:
+    products = [_times(x, y) for x in a for y in b]
+    return min(products), max(products)
+
+
+def _power(interval: Interval, exponent: int) -> Interval:
+    low, high = interval
+    if exponent % 2 or low >= 0:
+        return low**exponent, high**exponent
+    top = max(low**exponent, high**exponent)
+    return (min(low**exponent, high**exponent), top) if high < 0 else (Fraction(0), top)
+
+
+def is_definite(polynomial: Polynomial) -> bool:
+    """Whether a polynomial of degree 2 is a sum of squares plus a positive constant, by exact elimination.
+
+    >>> from singsym.polynomials import Ring
+    >>> x, y = Ring(("x", "y")).gens
+    >>> is_definite(x**2 - 2 * x * y + y**2 + 1), is_definite(x**2 - 2 * x + 1)
+    (True, False)
+    """
+    if polynomial.total_degree != 2:
+        return False
+    names = polynomial.variables
+    places = {polynomial.ring.index(name): k for k, name in enumerate(names)}
+    size = len(names) + 1
+    form = [[Fraction(0)] * size for _ in range(size)]
+    for exponents, c in polynomial.terms():
+        where = [places[i] for i, e in enumerate(exponents) for _ in range(e)]
+        i, j = (*where, size - 1, size - 1)[:2]
+        form[i][j] += _fraction(c) / 2
+        form[j][i] += _fraction(c) / 2
+    for k in range(size - 1):
+        pivot = form[k][k]
+        if pivot < 0 or (pivot == 0 and any(form[k][k:])):
+            return False
+        for i in range(k + 1, size):
+            if pivot:
+                factor = form[i][k] / pivot
+                form[i] = [a - factor * b for a, b in zip(form[i], form[k], strict=True)]
+    return form[-1][-1] > 0

@@ -1,0 +1,315 @@
+"""Elimination of passive velocities that stay uniquely determined at every feasible configuration.
+
+Source: Zlatanov, Fenton, Benhabib (1998), section 4.2 and, as an example, (7)-(9) of section 5.2.
+
+Lemma (pivot).  If a column is zero but for one entry and that entry is nonzero, then taking away its row
+and the column lowers the rank by 1; row operations invertible at q do not change ranks.  L, L_I, L_O and L_p
+have the same rows, and all contain the passive columns: a pivot in a passive column lowers all four ranks.
+
+Lemma (block).  Let k columns be zero outside k + 1 rows, B these rows, w the vector of the signed k-minors
+of B.  Then w B = 0, w w = det(B^T B), and where w w is nonzero the square matrix of rows B^T, w is
+invertible: it may act on the k + 1 rows.  The first k then go with the columns, the one with w stays.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations
+from typing import TYPE_CHECKING
+
+from flint import fmpq, fmpz
+
+from singsym.kinematics.nonzero import Certifier, short_text
+from singsym.polynomials import Polynomial, PolynomialMatrix
+
+if TYPE_CHECKING:
+    from singsym.kinematics.velocity import VelocityEquation
+
+LARGEST_BLOCK = 3
+"""Up to this many columns are eliminated together: the spins of a spherical joint."""
+
+
+@dataclass(frozen=True)
+class Elimination:
+    """Columns eliminated with as many rows, the polynomial that had to be nonzero, and why it is."""
+
+    columns: tuple[str, ...]
+    rows: tuple[str, ...]
+    pivot: Polynomial
+    reason: str
+
+    def __str__(self) -> str:
+        which = ", ".join(self.columns)
+        if len(self.columns) == 1 and len(self.rows) == 1:
+            how = f"by row {self.rows[0]}, pivot {short_text(self.pivot)}"
+        else:
+            how = f"from rows {', '.join(self.rows)}, sum of squared minors {short_text(self.pivot)}"
+        why = "" if self.pivot.is_constant else f": {self.reason}"
+        return f"{which} {how}{why}"
+
+
+@dataclass(frozen=True)
+class Reduced:
+    """A matrix with columns eliminated: its rank is that of `matrix` plus `constant` at every feasible q.
+
+    rows, columns: where the rows and columns that are left come from; a combination of rows bears the index
+    of one of them.
+    """
+
+    matrix: PolynomialMatrix
+    rows: tuple[int, ...]
+    columns: tuple[int, ...]
+    record: tuple[Elimination, ...]
+
+    @property
+    def constant(self) -> int:
+        """The number of eliminated columns."""
+        return sum(len(step.columns) for step in self.record)
+
+
+@dataclass(frozen=True)
+class Reduction:
+    """A velocity equation without the passive velocities that could be eliminated.
+
+    rank L = rank(reduced L) + constant at every feasible configuration, and the same for L_I, L_O and L_p.
+    """
+
+    equation: VelocityEquation
+    constant: int
+    record: tuple[Elimination, ...]
+
+    @property
+    def lines(self) -> tuple[str, ...]:
+        """The record in words, one line an elimination and one for the ranks."""
+        size = f"{self.equation.matrix.shape[0]}x{self.equation.matrix.shape[1]}"
+        last = f"every rank is that of the reduced matrix ({size}) + {self.constant}"
+        return (*(str(step) for step in self.record), last)
+
+
+class _Elimination:
+    """The matrix at work: dense rows of polynomials with the labels of what is left."""
+
+    def __init__(
+        self,
+        matrix: PolynomialMatrix,
+        candidates: Sequence[int],
+        certifier: Certifier,
+        row_labels: Sequence[str],
+        column_labels: Sequence[str],
+    ) -> None:
+        self.ring = matrix.ring
+        self.certifier = certifier
+        self.entries = [list(row) for row in matrix.rows]
+        self.rows = list(range(matrix.shape[0]))
+        self.columns = list(range(matrix.width))
+        self.candidates = set(candidates)
+        self.row_labels, self.column_labels = row_labels, column_labels
+        self.record: list[Elimination] = []
+
+    def run(self) -> None:
+        """Unit pivots while there are any, then one block, and again."""
+        while self._pivot() or self._block():
+            pass
+
+    def _column(self, j: int) -> list[int]:
+        return [i for i, row in enumerate(self.entries) if row[j]]
+
+    def _eligible(self) -> list[int]:
+        return [j for j, origin in enumerate(self.columns) if origin in self.candidates]
+
+    # -- single pivots -------------------------------------------------------------------------------
+
+    def _group(self, j: int) -> int:
+        """How many columns of the same joint are left: spins of a spherical joint go before single pins."""
+        joint = self.column_labels[self.columns[j]].split(".")[0]
+        return sum(self.column_labels[c].split(".")[0] == joint for c in self.columns)
+
+    def _pivot(self) -> bool:
+        best: tuple[tuple[int, ...], int, int] | None = None
+        for j in self._eligible():
+            support = self._column(j)
+            group = self._group(j)
+            for i in support:
+                entry = self.entries[i][j]
+                row = [e for e in self.entries[i] if e]
+                cost = (len(row) - 1) * (len(support) - 1)
+                degree = max(
+                    max(e.total_degree for e in row), *(self.entries[k][j].total_degree for k in support)
+                )
+                key = (int(not entry.is_constant), -group, cost, degree, i, j)
+                if (best is None or key < best[0]) and self.certifier.reason(entry) is not None:
+                    best = key, i, j
+        if best is None:
+            return False
+        _, i, j = best
+        pivot = self.entries[i][j]
+        self._note((j,), (i,), pivot)
+        for k in self._column(j):
+            if k != i:
+                factor = self.entries[k][j]
+                combined = [
+                    pivot * a - factor * b for a, b in zip(self.entries[k], self.entries[i], strict=True)
+                ]
+                self.entries[k] = self._tidy(combined)
+        self._drop((i,), (j,))
+        return True
+
+    # -- blocks --------------------------------------------------------------------------------------
+
+    def _blocks(self) -> Iterator[tuple[tuple[int, ...], tuple[int, ...]]]:
+        supports = {j: frozenset(self._column(j)) for j in self._eligible()}
+        for k in range(1, LARGEST_BLOCK + 1):
+            small = [j for j, support in supports.items() if 0 < len(support) <= k + 1]
+            for columns in combinations(small, k):
+                rows = frozenset().union(*(supports[j] for j in columns))
+                if len(rows) in (k, k + 1):
+                    yield tuple(sorted(rows)), columns
+
+    def _block(self) -> bool:
+        for rows, columns in self._blocks():
+            block = [[self.entries[i][j] for j in columns] for i in rows]
+            if len(rows) == len(columns):
+                pivot = self.certifier.shorten(_small_determinant(block, self.ring.one))
+                kernel = None
+            else:
+                kernel = self._tidy(_signed_minors(block, self.ring.one))
+                pivot = self.certifier.shorten(sum((w * w for w in kernel), start=self.ring.zero))
+            if self.certifier.reason(pivot) is None:
+                continue
+            self._note(columns, rows, pivot)
+            if kernel is not None:
+                keep = next(p for p, w in enumerate(kernel) if w)
+                weighted = [[w * e for e in self.entries[i]] for w, i in zip(kernel, rows, strict=True)]
+                self.entries[rows[keep]] = self._tidy(
+                    [sum(terms, start=self.ring.zero) for terms in zip(*weighted, strict=True)]
+                )
+                rows = (*rows[:keep], *rows[keep + 1 :])
+            self._drop(rows, columns)
+            return True
+        return False
+
+    # -- common --------------------------------------------------------------------------------------
+
+    def _tidy(self, row: list[Polynomial]) -> list[Polynomial]:
+        """The row in short forms, divided by its content where that is nonzero everywhere."""
+        row = [self.certifier.shorten(e) for e in row]
+        content = _rational_content(row)
+        common = self.ring.zero
+        for e in row:
+            common = common.gcd(e) if common else e
+        if common.is_constant or self.certifier.reason(common) is None:
+            return [e * content for e in row]
+        common = common.primitive()
+        content = _rational_content([e.exact_quotient(common) for e in row])
+        return [e.exact_quotient(common) * content for e in row]
+
+    def _note(self, columns: Sequence[int], rows: Sequence[int], pivot: Polynomial) -> None:
+        self.record.append(
+            Elimination(
+                tuple(self.column_labels[self.columns[j]] for j in columns),
+                tuple(self.row_labels[self.rows[i]] for i in rows),
+                pivot,
+                self.certifier.reason(pivot) or "",
+            )
+        )
+
+    def _drop(self, rows: Sequence[int], columns: Sequence[int]) -> None:
+        kept = [j for j in range(len(self.columns)) if j not in columns]
+        self.entries = [[row[j] for j in kept] for i, row in enumerate(self.entries) if i not in rows]
+        self.rows = [r for i, r in enumerate(self.rows) if i not in rows]
+        self.columns = [self.columns[j] for j in kept]
+
+
+def _rational_content(row: Sequence[Polynomial]) -> fmpq:
+    """The positive rational that makes the coefficients of a row coprime integers; 1 for a zero row."""
+    numerator, denominator = fmpz(0), fmpz(1)
+    for e in row:
+        for c in e.value.coeffs():
+            numerator, denominator = numerator.gcd(c.p), denominator.lcm(c.q)
+    return fmpq(denominator, numerator) if numerator else fmpq(1)
+
+
+def _small_determinant(block: list[list[Polynomial]], one: Polynomial) -> Polynomial:
+    """The determinant of a block of up to three rows, by its first row."""
+    if not block:
+        return one
+    total = one - one
+    for j, entry in enumerate(block[0]):
+        if entry:
+            rest = [row[:j] + row[j + 1 :] for row in block[1:]]
+            total = total + (-1) ** j * entry * _small_determinant(rest, one)
+    return total
+
+
+def _signed_minors(block: list[list[Polynomial]], one: Polynomial) -> list[Polynomial]:
+    """The vector w with w B = 0 for a matrix B of one row more than columns."""
+    return [(-1) ** i * _small_determinant(block[:i] + block[i + 1 :], one) for i in range(len(block))]
+
+
+def eliminate(
+    matrix: PolynomialMatrix,
+    candidates: Sequence[int],
+    certifier: Certifier,
+    row_labels: Sequence[str] | None = None,
+    column_labels: Sequence[str] | None = None,
+) -> Reduced:
+    """Eliminate those of the candidate columns for which a pivot is proved nonzero everywhere.
+
+    The rank of every submatrix that keeps all rows and the candidate columns drops by `constant`.
+
+    >>> from singsym.kinematics.placement import ConfigurationSpace
+    >>> from singsym.polynomials import Ring
+    >>> R = Ring(("c", "s"))
+    >>> c, s = R.gens
+    >>> circle = Certifier(ConfigurationSpace(R, (c**2 + s**2 - 1,)))
+    >>> reduced = eliminate(PolynomialMatrix.of(R, [[c, 1], [s, 0]]), (0,), circle)
+    >>> reduced.matrix.rows, reduced.constant
+    (((s,),), 1)
+    """
+    work = _Elimination(
+        matrix,
+        candidates,
+        certifier,
+        row_labels or [f"{i + 1}" for i in range(matrix.shape[0])],
+        column_labels or [f"{j + 1}" for j in range(matrix.width)],
+    )
+    work.run()
+    rows = tuple(tuple(row) for row in work.entries)
+    result = PolynomialMatrix(matrix.ring, rows, len(work.columns))
+    return Reduced(result, tuple(work.rows), tuple(work.columns), tuple(work.record))
+
+
+def reduce_submatrix(matrix: PolynomialMatrix, certifier: Certifier) -> Reduced:
+    """The same for one matrix alone, whose columns may all go; zero rows and zero columns go as well.
+
+    Source: (11)-(13) of the paper, where each of the four matrices is simplified on its own.
+    """
+    found = eliminate(matrix, range(matrix.width), certifier)
+    rows = [i for i, row in enumerate(found.matrix.rows) if any(row)]
+    columns = [j for j in range(found.matrix.width) if any(row[j] for row in found.matrix.rows)]
+    return Reduced(
+        found.matrix.select(rows, columns),
+        tuple(found.rows[i] for i in rows),
+        tuple(found.columns[j] for j in columns),
+        found.record,
+    )
+
+
+def reduce(equation: VelocityEquation, certifier: Certifier | None = None) -> Reduction:
+    """The velocity equation without the passive velocities that are determined everywhere (section 4.2).
+
+    Outputs and inputs stay.  N of the reduced equation is lower by `constant`, n is the same, so that the
+    conditions (4), (5), (i)-(viii) read the same.
+    """
+    labels = tuple(column.label for column in equation.columns)
+    passive = [j for j, column in enumerate(equation.columns) if column.role == "passive"]
+    found = eliminate(equation.matrix, passive, certifier or Certifier(equation.space), equation.rows, labels)
+    reduced = replace(
+        equation,
+        matrix=found.matrix,
+        columns=tuple(equation.columns[j] for j in found.columns),
+        rows=tuple(equation.rows[i] for i in found.rows),
+        N=equation.N - found.constant,
+    )
+    return Reduction(reduced, found.constant, found.record)
