@@ -197,6 +197,15 @@ def _real_roots(squarefree: fmpz_poly) -> list[arb]:
     return [root.real for root, _ in roots if root.imag == 0]
 
 
+def has_real_root(polynomial: fmpz_poly) -> bool:
+    """Whether a polynomial over Z in one variable, not zero, has a real root.
+
+    >>> has_real_root(fmpz_poly([1, 0, 1])), has_real_root(fmpz_poly([1, 2, 1]))
+    (False, True)
+    """
+    return bool(_real_roots(polynomial // polynomial.gcd(polynomial.derivative())))
+
+
 def _modulo_factor(
     parametrization: Parametrization, factor: fmpz_poly
 ) -> tuple[tuple[int, ...], tuple[tuple[int, ...], ...]]:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from singsym.elimination.budget import Budget, BudgetExceeded, Undecided, current
 from singsym.elimination.engines import EngineFailure
+from singsym.elimination.verdict import Certainty
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.real.box import BoxPoint, boxed_point
 from singsym.varieties.real.points import RealPoint
@@ -68,7 +69,7 @@ class Witness:
         return self.point.ring
 
     @property
-    def certainty(self) -> str:
+    def certainty(self) -> Certainty:
         """ "proven" for an exact point, "certified" for a box with one solution inside."""
         return "proven" if isinstance(self.point, RealPoint) else "certified"
 

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from singsym.elimination import engines
+from singsym.elimination.basis import groebner_basis
 from singsym.elimination.budget import Budget, Undecided, current
+from singsym.elimination.ideal import Ideal
 from singsym.polynomials import AlgebraicConstant, Polynomial
 from singsym.varieties.real.parametrization import Parametrization, parametrize
 from singsym.varieties.real.points import RealPoint, real_points_of
@@ -18,7 +19,9 @@ from singsym.varieties.real.quotient import NotZeroDimensional, quotient_algebra
 __all__ = ["NotZeroDimensional", "pinned", "real_points", "solve"]
 
 
-def real_points(equations: Sequence[Polynomial], budget: Budget | None = None) -> tuple[RealPoint, ...]:
+def real_points(
+    equations: Ideal | Sequence[Polynomial], budget: Budget | None = None
+) -> tuple[RealPoint, ...]:
     """All real points of a zero-dimensional system, in increasing order of the coordinates.
 
     equations: an `Ideal`, or polynomials of one ring; the relations of the ring's constants are added, and
@@ -30,7 +33,7 @@ def real_points(equations: Sequence[Polynomial], budget: Budget | None = None) -
     >>> [p.decimals(4) for p in real_points([x**2 + y**2 - 4, x - y])]
     [{'x': '-1.414', 'y': '-1.414'}, {'x': '1.414', 'y': '1.414'}]
     """
-    generators = tuple(getattr(equations, "generators", equations))
+    generators = equations.generators if isinstance(equations, Ideal) else tuple(equations)
     if not generators:
         raise NotZeroDimensional("no equations: the whole space")
     ring = generators[0].ring
@@ -49,8 +52,8 @@ def solve(equations: Sequence[Polynomial], budget: Budget | None = None) -> Para
     def check() -> None:
         budget.check("the quotient algebra of a zero-dimensional system")
 
-    basis = engines.solve(engines.Task("groebner", ring, tuple(system)), budget).ideals[0]
-    algebra = quotient_algebra(ring, basis, check)
+    basis = groebner_basis(ring, system, budget)
+    algebra = quotient_algebra(ring, basis.polynomials, check)
     found = parametrize(algebra, system, check=check)
     if found is None:
         found = parametrize(reduced(algebra, check), system, check=check)

@@ -1,0 +1,108 @@
+"""Real dimension: the complex one at a certified smooth real point, else that of the singular locus.
+
+Source: Bochnak, Coste, Roy, Real Algebraic Geometry (1998), 2.8 and 3.3.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from singsym.elimination.budget import Budget, Undecided, current
+from singsym.elimination.ideal import Ideal
+from singsym.varieties.decomposition import Component, decompose
+from singsym.varieties.real.box import BoxPoint
+from singsym.varieties.real.critical import regular_generators
+from singsym.varieties.real.emptiness import is_empty_over_reals
+from singsym.varieties.real.intervals import at_precision, evaluate, jacobian, rank_at_least
+from singsym.varieties.real.points import RealPoint
+from singsym.varieties.real.witness import RealSystem, Witness, find_witness
+
+_RANK_BITS = (64, 256)
+
+
+def local_dimension(point: RealPoint | BoxPoint | Witness, ideal: Ideal) -> int | None:
+    """The real dimension of V(ideal) at a point of it, where it is a certified smooth one; else `None`.
+
+    The ideal's components through the point must all have the ideal's dimension, as those of a prime have:
+    then independent gradients, as many as the codimension, make the set a manifold of that dimension there.
+
+    >>> from fractions import Fraction
+    >>> from singsym.polynomials import Ring
+    >>> from singsym.varieties.real.witness import frozen_points
+    >>> R = Ring(("x", "y"))
+    >>> x, y = R.gens
+    >>> circle = Ideal(R, (x**2 + y**2 - 1,))
+    >>> local_dimension(frozen_points(R, circle.generators, {"x": Fraction(0)})[0], circle)
+    1
+    """
+    place = point.point if isinstance(point, Witness) else point
+    dimension = ideal.dimension
+    codimension = len(ideal.ring.names) - dimension
+    slopes = jacobian(ideal.generators, ideal.ring.names)
+    for bits in _RANK_BITS:
+        box = place.refine(bits).box
+        with at_precision(bits + 64):
+            if rank_at_least([[evaluate(d, box) for d in row] for row in slopes], codimension):
+                return dimension
+    return None
+
+
+def real_dimension(
+    system: RealSystem, budget: Budget | None = None, *, seed: int = 0
+) -> tuple[int, Witness | None]:
+    """The dimension of the real solution set and a point where it has it; (-1, None) where it is empty.
+
+    Raises `Undecided` with the reason.
+
+    >>> from singsym.polynomials import Ring
+    >>> R = Ring(("x", "y", "z"))
+    >>> x, y, z = R.gens
+    >>> [real_dimension(RealSystem(R, (f,)))[0] for f in (x**2 + y**2 + z**2 - 1, x**4 + y**2 - z**4 * x)]
+    [2, 2]
+    >>> [real_dimension(RealSystem(R, (f,)))[0] for f in (x**2 + y**2, x**2 + y**2 + z**2, x**2 + 1)]
+    [1, 0, -1]
+    """
+    budget = current(budget)
+    best: tuple[int, Witness | None] = (-1, None)
+    components = decompose(system.closed_equations, system.positive, ring=system.ring, budget=budget)
+    for component in sorted(components, key=lambda c: -c.dimension):
+        if component.dimension <= best[0]:
+            continue
+        found = _component_dimension(component, system, budget, seed)
+        best = max(best, found, key=lambda pair: pair[0])
+    return best
+
+
+def _component_dimension(
+    component: Component, system: RealSystem, budget: Budget, seed: int
+) -> tuple[int, Witness | None]:
+    piece = replace(system, equations=component.generators)
+    if component.dimension == 0:
+        return _zero_or_empty(piece, budget, seed)
+    # where the inequalities are strict they are open and do not touch the dimension
+    boundaries = tuple(p for p in system.nonnegative if not component.vanishes(p))
+    strict = replace(piece, positive=(*system.positive, *boundaries), nonnegative=())
+    found = find_witness(strict, seed=seed, tries=8, dimension=component.dimension, budget=budget)
+    if found is not None and local_dimension(found, component.ideal) == component.dimension:
+        return component.dimension, found
+    codimension = len(system.ring.names) - component.dimension
+    if not codimension:
+        regular, singular = strict, Ideal(system.ring, (system.ring.one,))
+    else:
+        _, singular = regular_generators(component, system.closed_equations, codimension, budget)
+        regular = replace(strict, exclusions=(*system.exclusions, singular.generators))
+    verdict = is_empty_over_reals(regular, budget, seed=seed)
+    if verdict.is_no:
+        return component.dimension, verdict.witness
+    if verdict.is_undecided:
+        raise Undecided(f"the real dimension of {component!r}: {verdict.reason}")
+    smaller = [singular.generators, *((*component.generators, p) for p in boundaries)]
+    parts = [real_dimension(replace(system, equations=e), budget, seed=seed) for e in smaller]
+    return max(parts, key=lambda pair: pair[0])
+
+
+def _zero_or_empty(system: RealSystem, budget: Budget, seed: int) -> tuple[int, Witness | None]:
+    verdict = is_empty_over_reals(system, budget, seed=seed)
+    if verdict.is_undecided:
+        raise Undecided(verdict.reason)
+    return (-1, None) if verdict.is_yes else (0, verdict.witness)

@@ -1,0 +1,204 @@
+"""Whether a system of polynomial equations, exclusions and inequalities has a real solution.
+
+Cheap certificates first, then a search for a witness, then points on every connected component.
+Source: Basu, Pollack, Roy, Algorithms in Real Algebraic Geometry (2006), ch. 12-13.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from flint import fmpz_poly
+
+from singsym.elimination.budget import Budget, Undecided, current
+from singsym.elimination.verdict import Verdict
+from singsym.polynomials import Polynomial
+from singsym.varieties.decomposition import Component, decompose
+from singsym.varieties.real.critical import component_samples, sample_points
+from singsym.varieties.real.points import RealPoint, has_real_root
+from singsym.varieties.real.squares import sum_of_squares
+from singsym.varieties.real.witness import RealSystem, Witness, find_witness
+from singsym.varieties.real.zerodim import pinned, real_points
+
+_SEARCH_SECONDS = 15.0
+
+
+def is_empty_over_reals(
+    system: RealSystem, budget: Budget | None = None, *, seed: int = 0, tries: int = 25
+) -> Verdict:
+    """Whether the system has no real solution; "no" comes with a `Witness`, "undecided" with a reason.
+
+    >>> from singsym.polynomials import Ring
+    >>> R = Ring(("x", "y"))
+    >>> x, y = R.gens
+    >>> is_empty_over_reals(RealSystem(R, (x**2 + y**2 + 1,))).answer
+    <Answer.YES: 'yes'>
+    >>> is_empty_over_reals(RealSystem(R, (x**2 + y**2 - 1,), positive=(x - y,))).answer
+    <Answer.NO: 'no'>
+    """
+    budget = current(budget)
+    try:
+        return _decided(system, budget, seed, tries)
+    except Undecided as reason:
+        return Verdict.undecided(str(reason))
+
+
+def _decided(system: RealSystem, budget: Budget, seed: int, tries: int) -> Verdict:
+    equations = system.closed_equations
+    forced = _real_consequences(system, equations)
+    if forced is None:
+        return Verdict.yes(reason="a sum of squares with a positive constant is zero")
+    nonzero = [*system.positive, *(g[0] for g in system.exclusions if len(g) == 1)]
+    components = decompose([*equations, *forced], nonzero, ring=system.ring, budget=budget)
+    components = tuple(c for c in components if not _excluded(c, system))
+    if not components:
+        return Verdict.yes(reason="there is no complex solution")
+    reasons, doubts = [], []
+    for component in components:
+        try:
+            verdict = _component_verdict(component, system, equations, budget, seed, tries)
+        except Undecided as doubt:
+            doubts.append(str(doubt))
+            continue
+        if verdict.is_no:
+            return verdict
+        reasons.append(verdict.reason)
+    if doubts:
+        return Verdict.undecided("; ".join(dict.fromkeys(doubts)))
+    return Verdict.yes(reason="; ".join(dict.fromkeys(reasons)))
+
+
+def _excluded(component: Component, system: RealSystem) -> bool:
+    return any(all(component.vanishes(g) for g in group) for group in system.exclusions)
+
+
+def _component_verdict(
+    component: Component,
+    system: RealSystem,
+    equations: Sequence[Polynomial],
+    budget: Budget,
+    seed: int,
+    tries: int,
+) -> Verdict:
+    piece = replace(system, equations=component.generators)
+    if component.dimension == 0:
+        return _from_points(real_points(component.ideal, budget), piece, "finitely many complex solutions")
+    if _no_real_coordinate(component):
+        return Verdict.yes(reason="a polynomial in one variable has no real root")
+    if _contradiction(component, system):
+        return Verdict.yes(reason="an inequality contradicts a sum of squares")
+    forced = _real_consequences(piece, component.generators)
+    if forced is None:
+        return Verdict.yes(reason="a sum of squares with a positive constant is zero")
+    if not all(component.vanishes(f) for f in forced):
+        return _decided(replace(system, equations=(*component.generators, *forced)), budget, seed, tries)
+    try:
+        found = find_witness(
+            piece, seed=seed, tries=tries, dimension=component.dimension, budget=budget.part(_SEARCH_SECONDS)
+        )
+    except Undecided:
+        budget.check("the search for a real point")
+        found = None
+    if found is not None:
+        return Verdict.no(found.certainty, witness=found)
+    return _by_samples(component, piece, equations, budget)
+
+
+def _from_points(points: Sequence[RealPoint], system: RealSystem, what: str) -> Verdict:
+    for p in points:
+        if system.admits(p):
+            return Verdict.no(witness=Witness(p))
+    return Verdict.yes(reason=f"{what}, none real and admitted")
+
+
+# -- cheap certificates --------------------------------------------------------------------------------
+
+
+def _real_consequences(system: RealSystem, equations: Sequence[Polynomial]) -> list[Polynomial] | None:
+    """What sums of squares among the equations force to vanish; `None` where one has a positive constant."""
+    forced: list[Polynomial] = []
+    for f in _combinations(equations):
+        squares = sum_of_squares(f)
+        if squares is None:
+            continue
+        roots = squares[1]
+        if any(r.is_constant for r in roots):
+            return None
+        if len(roots) > 1:
+            forced.extend(roots)
+    return forced
+
+
+def _combinations(equations: Sequence[Polynomial]) -> Iterator[Polynomial]:
+    yield from equations
+    if len(equations) <= 12:
+        for i, f in enumerate(equations):
+            for g in equations[:i]:
+                yield f + g
+                yield f - g
+
+
+def _contradiction(component: Component, system: RealSystem) -> bool:
+    """Whether a polynomial required positive is, on the component, minus a sum of squares (or the like)."""
+    for p in (*system.positive, *system.nonnegative):
+        for form in (p, component.ideal.normal_form(p)):
+            squares = sum_of_squares(form) if form else (-1, ())
+            if squares is None or squares[0] > 0:
+                continue
+            if p in system.positive or any(r.is_constant for r in squares[1]):
+                return True
+    return False
+
+
+def _no_real_coordinate(component: Component) -> bool:
+    for f in component.ideal.groebner_basis():
+        if len(f.variables) == 1:
+            k = f.ring.index(f.variables[0])
+            coefficients = [0] * (f.total_degree + 1)
+            for m, c in f.integer().terms():
+                coefficients[int(m[k])] = int(c)
+            if not has_real_root(fmpz_poly(coefficients)):
+                return True
+    return False
+
+
+# -- points on every component ---------------------------------------------------------------------------
+
+
+def _by_samples(
+    component: Component, system: RealSystem, equations: Sequence[Polynomial], budget: Budget
+) -> Verdict:
+    """Points of the closed set, then of that lifted by slack variables so that all conditions are closed."""
+    ring = system.ring
+    points = [p for p in component_samples(component, equations, budget) if pinned(p, ring.constants)]
+    if not points:
+        return Verdict.yes(reason="no real point is nearest to a generic one")
+    for p in points:
+        if system.admits(p):
+            return Verdict.no(witness=Witness(p))
+    # equations as many as the codimension prove that all pieces have the same dimension: keep these, then
+    complete = len(equations) == len(ring.names) - component.dimension
+    lifted = _lifted(replace(system, equations=tuple(equations)) if complete else system)
+    if lifted.ring == ring:
+        raise ArithmeticError("real points that solve a system without further conditions are not admitted")
+    found = sample_points(lifted.ring, lifted.equations, budget)
+    if not found:
+        return Verdict.yes(reason="no real point of the lifted system is nearest to a generic one")
+    point = found[0]
+    numerators = tuple(point.numerators[point.ring.index(n)] for n in ring.names)
+    return Verdict.no(witness=Witness(replace(point, ring=ring, numerators=numerators)))
+
+
+def _lifted(system: RealSystem) -> RealSystem:
+    """p > 0 as p s^2 = 1, p >= 0 as p = s^2, an exclusion as (sum of squares) s = 1."""
+    count = len(system.positive) + len(system.nonnegative) + len(system.exclusions)
+    wide = system.ring.with_names((*system.ring.names, *(f"slack {k}" for k in range(count))))
+    slack = iter(wide.gens[len(system.ring.names) :])
+    equations = [wide.convert(f) for f in system.equations]
+    equations += [wide.convert(p) * next(slack) ** 2 - 1 for p in system.positive]
+    equations += [wide.convert(p) - next(slack) ** 2 for p in system.nonnegative]
+    for group in system.exclusions:
+        total = group[0] if len(group) == 1 else sum((g * g for g in group), start=system.ring.zero)
+        equations.append(wide.convert(total) * next(slack) - 1)
+    return RealSystem(wide, tuple(equations))
