@@ -124,6 +124,8 @@ class Ideal:
         basis = self._basis(budget)
         if not polynomial or not basis.polynomials:
             return polynomial
+        if basis.is_unit:
+            return self.ring.zero
         # a further variable, which nothing reduces, carries the scalar through the division
         tagged = self.ring.with_names((*self.ring.names, _fresh(self.ring)))
         vector = fmpz_mpoly_vec(

@@ -99,7 +99,7 @@ class MsolveEngine:
             raise EngineUnavailable(f"msolve is not there: {HOW_TO_GET}")
         budget.check("msolve")
         header = ",".join(f"x{k}" for k in range(1, len(used) + 1))
-        lines = ",\n".join(write(p, used) for p in generators)
+        lines = ",\n".join(write(p, used, characteristic) for p in generators)
         with tempfile.TemporaryDirectory(prefix="singsym-") as directory:
             source, target = Path(directory, "in.ms"), Path(directory, "out.ms")
             source.write_text(f"{header}\n{characteristic}\n{lines}\n")

@@ -93,7 +93,7 @@ class SingularEngine:
         second = f"poly singsym_p = {product};" if task.kind == "eliminate" else ""
         return (
             f"ring singsym_r = {task.characteristic},({variables}),{_ORDERS[task.ring.order]};\n"
-            f"ideal singsym_i = {_listing(task.generators, used)};\n"
+            f"ideal singsym_i = {_listing(task.generators, used, task.characteristic)};\n"
             f"ideal singsym_j = {_listing(task.others, used)};\n{second}\n"
             f"{command}\nsingsym_show(singsym_a);\n"
             "kill singsym_r; if (defined(singsym_k)) { kill singsym_k; }\n"
@@ -153,8 +153,8 @@ class SingularEngine:
         self._loaded = set()
 
 
-def _listing(polynomials: Sequence[Polynomial], used: Sequence[int]) -> str:
-    return ",\n".join(write(p, used) for p in polynomials if p) or "0"
+def _listing(polynomials: Sequence[Polynomial], used: Sequence[int], characteristic: int = 0) -> str:
+    return ",\n".join(write(p, used, characteristic) for p in polynomials if p) or "0"
 
 
 def _after(buffer: bytearray, ending: bytes) -> int:

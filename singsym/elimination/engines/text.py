@@ -13,12 +13,15 @@ from flint import fmpq, fmpz
 
 from singsym.polynomials import Polynomial, Ring
 
-_TERM = re.compile(r"([+-]?)(\d+(?:/\d+)?)?((?:\*?x\d+(?:\^\d+)?)*)")
+_POWER = r"x\d+(?:\^\d+)?"
+_TERM = re.compile(rf"([+-]?)(?:(\d+(?:/\d+)?)((?:\*{_POWER})*)|({_POWER}(?:\*{_POWER})*))")
 _FACTOR = re.compile(r"x(\d+)(?:\^(\d+))?")
 
 
-def write(polynomial: Polynomial, used: Sequence[int]) -> str:
+def write(polynomial: Polynomial, used: Sequence[int], characteristic: int = 0) -> str:
     """The primitive integer multiple, with the ring's variable `used[k]` written `x(k+1)`.
+
+    Modulo a prime its coefficients are reduced here: msolve misreads those above 2^63.
 
     >>> x, y = Ring(("names", "by")).gens
     >>> write((x - 1) * (y - 2) / 2, (0, 1))
@@ -26,6 +29,8 @@ def write(polynomial: Polynomial, used: Sequence[int]) -> str:
     """
     pieces = []
     for exponents, c in polynomial.integer().terms():
+        if characteristic and not (c := c % characteristic):
+            continue
         powers = [
             f"*x{k}" if exponents[i] == 1 else f"*x{k}^{exponents[i]}"
             for k, i in enumerate(used, start=1)
@@ -46,13 +51,11 @@ def read(text: str, ring: Ring, used: Sequence[int]) -> Polynomial:
     terms: dict[tuple[int, ...], fmpq] = {}
     while position < len(text):
         match = _TERM.match(text, position)
-        if match is None or match.end() == match.end(1) or (position and not match[1]):
+        if match is None or (position and not match[1]):
             raise ValueError(f"not a polynomial: {text[position : position + 40]!r}")
-        sign, number, monomial = match.groups()
-        if number is None and monomial.startswith("*"):
-            raise ValueError(f"not a polynomial: {text[position : position + 40]!r}")
+        sign, number, after_number, alone = match.groups()
         exponents = [0] * width
-        for index, power in _FACTOR.findall(monomial):
+        for index, power in _FACTOR.findall(after_number or alone or ""):
             if not 1 <= int(index) <= len(used):
                 raise ValueError(f"x{index} is not one of the {len(used)} variables")
             exponents[used[int(index) - 1]] += int(power or 1)

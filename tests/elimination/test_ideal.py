@@ -1,0 +1,156 @@
+"""Ideals on FLINT alone: laws, special cases and textbook examples."""
+
+from __future__ import annotations
+
+import pickle
+from collections.abc import Iterator
+from fractions import Fraction
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from singsym.elimination import engines, memo
+from singsym.elimination.budget import Budget, BudgetExceeded
+from singsym.elimination.ideal import Ideal
+from singsym.polynomials import Polynomial, Ring
+
+R = Ring(("x", "y", "z"))
+x, y, z = R.gens
+
+
+@pytest.fixture(autouse=True)
+def _flint_alone() -> Iterator[None]:
+    with engines.use("flint"):
+        yield
+
+
+def ideal(*generators: Polynomial) -> Ideal:
+    return Ideal(R, generators)
+
+
+def test_cox_little_oshea_2_8_example_1() -> None:
+    """xz - y^2, x^3 - z^2 (chapter 2, section 8): f = -4x^2y^2z^2 + y^6 + 3z^5 is in the ideal."""
+    i = ideal(x * z - y**2, x**3 - z**2)
+    assert i.contains(-4 * x**2 * y**2 * z**2 + y**6 + 3 * z**5)
+    assert not i.contains(x * y - 5 * z**2 + x)
+
+
+def test_normal_form_is_exact() -> None:
+    i = ideal(3 * x**2 - 2 * y, 5 * x * y - z, 7 * y**2 - x)
+    p = Fraction(2, 11) * x**3 * y + y**4 / 3 - z + 1
+    remainder = i.normal_form(p)
+    assert i.contains(p - remainder)
+    assert remainder.primitive() == i.reduce(p)
+    assert i.normal_form(remainder) == remainder
+    assert ideal().normal_form(p) == p
+    assert ideal(R.one).normal_form(p).is_zero
+    assert i.normal_form(R.zero).is_zero
+
+
+def test_unit_and_zero_ideals() -> None:
+    unit, zero = ideal(R.one), ideal()
+    assert unit.is_unit() and unit.dimension == -1 and unit.degree == 0
+    assert unit.vector_space_dimension == 0 and not unit.is_zero_dimensional
+    assert unit.minimal_primes() == () and unit.radical().is_unit()
+    assert zero.dimension == 3 and zero.minimal_primes() == (zero,)
+    assert zero.contains(R.zero) and not zero.contains(x)
+    assert zero.saturate(x).equals(zero) and unit.saturate(x).is_unit()
+    assert zero.saturate(R.zero).is_unit()
+    assert (unit * zero).equals(zero) and (unit + zero).equals(unit)
+    assert ideal(R.constant(3), x).equals(unit)
+    with pytest.raises(ValueError, match="infinitely many"):
+        _ = zero.vector_space_dimension
+
+
+def test_non_reduced_and_embedded() -> None:
+    double = ideal((x - y) ** 2)
+    assert double.radical_contains(x - y) and not double.contains(x - y)
+    embedded = ideal(x**2, x * y)
+    assert embedded.saturate(y).equals(ideal(x))
+    assert embedded.quotient(x).equals(ideal(x, y))
+    assert double.radical().equals(ideal(x - y))
+
+
+def test_radical_membership_needs_no_elimination() -> None:
+    curve = ideal(y - x**2, z - x**3)
+    assert curve.radical_contains(x * z - y**2)
+    assert curve.radical_contains(ideal(x * z - y**2, y**3 - z**2))
+    assert not curve.radical_contains(x)
+    assert curve.radical_contains(R.zero)
+
+
+def test_elimination_of_nonlinear_variables() -> None:
+    ring = Ring(("s", "t", "a", "b", "c"))
+    s, t, a, b, c = ring.gens
+    surface = Ideal(ring, (a - s**2, b - s * t, c - t**2)).eliminate(("s", "t"))
+    assert surface.generators == (b**2 - a * c,)
+    # the tangent surface of the twisted cubic (Cox, Little, O'Shea, 3.3)
+    tangents = Ideal(ring, (a - s - t, b - s**2 - 2 * s * t, c - s**3 - 3 * s**2 * t)).eliminate(("s", "t"))
+    expected = 4 * a**3 * c - 3 * a**2 * b**2 - 6 * a * b * c + 4 * b**3 + c**2
+    assert tangents.equals(Ideal(ring, (expected,)))
+    assert surface.restrict(Ring(("a", "b", "c"))).dimension == 2
+
+
+def test_rings_do_not_mix() -> None:
+    other = Ring(("x", "y"))
+    with pytest.raises(ValueError, match="convert"):
+        ideal(x).contains(other.gens[0])
+    with pytest.raises(ValueError, match="convert"):
+        Ideal(other, (x,))
+    with pytest.raises(KeyError):
+        ideal(x).eliminate({"w"})
+
+
+def test_minimal_primes_without_an_engine() -> None:
+    assert {p.generators for p in ideal(x**2 * y * (x**2 + 1)).minimal_primes()} == {(x,), (y,), (x**2 + 1,)}
+    lines = ideal(z - x * y, z**2 - 4 * x * y).minimal_primes()
+    assert {p.groebner_basis() for p in lines} == {(z, x), (z, y), (z - 4, x * y - 4)}
+    with pytest.raises(engines.EngineUnavailable, match="install"):
+        ideal(x**2 - 2, y**2 - 2, z**2 - x * y).minimal_primes()
+
+
+def test_frozen_hashable_picklable() -> None:
+    i = ideal(x**2 - y, z)
+    assert pickle.loads(pickle.dumps(i)) == i and hash(i) == hash(pickle.loads(pickle.dumps(i)))
+    assert i != ideal(z, x**2 - y) and i.equals(ideal(z, x**2 - y + z))
+    with pytest.raises(AttributeError):
+        i.ring = R  # type: ignore[misc]
+
+
+def test_results_are_remembered_by_content(monkeypatch: pytest.MonkeyPatch) -> None:
+    first = ideal(x**2 - y, y**2 - x).groebner_basis()
+    monkeypatch.setattr(engines.registry, "solve", None)
+    assert ideal(2 * (y**2 - x), x**2 - y).groebner_basis() == first
+
+
+def test_no_budget_left() -> None:
+    with pytest.raises(BudgetExceeded):
+        ideal(x**2 - y, y**2 - z).groebner_basis(Budget(0))
+    with Budget(0), pytest.raises(BudgetExceeded):
+        _ = ideal(x**2 - y, y**2 - 3 * z).dimension
+    assert ideal(x**2 - y * z, y**2 - 5 * z).unit_verdict(Budget(0)).is_undecided
+    assert ideal(x * y - 1, y).unit_verdict().is_yes
+
+
+small = st.integers(-2, 2)
+polynomials = st.lists(st.tuples(small, st.sampled_from([R.one, x, y, z, x * y, y * z, x**2])), max_size=3).map(
+    lambda terms: sum((c * m for c, m in terms), start=R.zero)
+)
+ideals = st.lists(polynomials, max_size=2).map(lambda generators: Ideal(R, generators))
+
+
+@settings(max_examples=40, deadline=None)
+@given(ideals, ideals, polynomials)
+def test_laws(i: Ideal, j: Ideal, g: Polynomial) -> None:
+    meet = i.intersect(j)
+    assert i.contains(meet) and j.contains(meet) and meet.contains(i * j)
+    assert (i + j).contains(i) and (i + j).contains(j)
+    colon, saturation = i.quotient(g), i.saturate(g)
+    assert colon.contains(i) and saturation.contains(colon)
+    assert i.contains(Ideal(R, (g,)) * colon)
+    assert saturation.is_unit() == i.radical_contains(g)
+    assert meet.dimension == max(i.dimension, j.dimension)
+    rest = i.eliminate({"x"})
+    assert i.contains(rest) and all(p.degree("x") <= 0 for p in rest.generators)
+    memo.forget()
