@@ -11,8 +11,9 @@ from singsym.kinematics.dimensions import dimensions
 
 from singsym.kinematics.formulations import local
 from singsym.kinematics.formulations.assembly import Assembly, placement
-from singsym.kinematics.formulations.floating import hang, loose_parts, positive_lengths
 from singsym.kinematics.formulations.frames import Algebra, rigid
+from singsym.kinematics.formulations.platforms import find_platforms, hang_platforms
+from singsym.kinematics.formulations.struts import find_struts, hang_struts
 from singsym.kinematics.formulations.tree import by_branch, grow, plan, spanning_steps
 from singsym.kinematics.placement import Placement
 from singsym.mechanism.model import Mechanism
@@ -37,7 +38,9 @@ def place(mechanism: Mechanism, *, angles: str = "auto", quaternion: bool = Fals
     absolute = angles == "absolute" or (angles == "auto" and not open_chain)
     steps = plan(mechanism, geometry, tree, absolute)
     reached = {mechanism.ground, *(step.child for step in steps)}
-    platforms, struts = loose_parts(mechanism, geometry, reached, quaternion, positive_lengths(mechanism))
+    struts = find_struts(mechanism, geometry)
+    rods = {link for strut in struts for link in strut.links}
+    platforms = find_platforms(mechanism, geometry, reached, rods, quaternion)
     names = [v for step in by_branch(steps) for v in step.variables]
     names += [v for platform in platforms for v in platform.names]
     names += [v for strut in struts for v in strut.names]
@@ -47,7 +50,8 @@ def place(mechanism: Mechanism, *, angles: str = "auto", quaternion: bool = Fals
     grown = grow(geometry, algebra, {mechanism.ground: origin}, steps)
     assembly = Assembly(mechanism, geometry, algebra, grown.bodies, list(grown.circles), grown.values)
     assembly.circles = () if open_chain else grown.circles
-    hang(assembly, platforms, struts)
+    hang_platforms(assembly, platforms, rods)
+    hang_struts(assembly, struts)
     used = {step.joint.name for step in steps}
     assembly.close(
         joint
