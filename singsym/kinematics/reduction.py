@@ -41,10 +41,10 @@ class Elimination:
 
     def __str__(self) -> str:
         which = ", ".join(self.columns)
-        if len(self.columns) == 1 and len(self.rows) == 1:
+        if len(self.rows) == 1:
             how = f"by row {self.rows[0]}, pivot {short_text(self.pivot)}"
         else:
-            how = f"from rows {', '.join(self.rows)}, sum of squared minors {short_text(self.pivot)}"
+            how = f"from rows {', '.join(self.rows)}, sum of squares {short_text(self.pivot)}"
         why = "" if self.pivot.is_constant else f": {self.reason}"
         return f"{which} {how}{why}"
 
@@ -97,6 +97,7 @@ class _Elimination:
         certifier: Certifier,
         row_labels: Sequence[str],
         column_labels: Sequence[str],
+        thorough: bool,
     ) -> None:
         self.ring = matrix.ring
         self.certifier = certifier
@@ -105,11 +106,12 @@ class _Elimination:
         self.columns = list(range(matrix.width))
         self.candidates = set(candidates)
         self.row_labels, self.column_labels = row_labels, column_labels
+        self.thorough = thorough
         self.record: list[Elimination] = []
 
     def run(self) -> None:
         """Unit pivots while there are any, then one block, and again."""
-        while self._pivot() or self._block():
+        while self._pivot() or self._block() or (self.thorough and self._pair()):
             pass
 
     def _column(self, j: int) -> list[int]:
@@ -189,6 +191,26 @@ class _Elimination:
             return True
         return False
 
+    def _pair(self) -> bool:
+        """A column with entries v, w for which v^2 + w^2 is nonzero: rotate the two rows, then a pivot."""
+        for j in self._eligible():
+            for i, k in combinations(self._column(j), 2):
+                v, w = self.entries[i][j], self.entries[k][j]
+                if self.certifier.reason(pivot := self.certifier.shorten(v * v + w * w)) is None:
+                    continue
+                self._note((j,), (i, k), pivot)
+                first, second = self.entries[i], self.entries[k]
+                along = [v * a + w * b for a, b in zip(first, second, strict=True)]
+                self.entries[k] = self._tidy([v * b - w * a for a, b in zip(first, second, strict=True)])
+                for m in self._column(j):
+                    if m not in (i, k):
+                        factor = self.entries[m][j]
+                        combined = zip(self.entries[m], along, strict=True)
+                        self.entries[m] = self._tidy([pivot * a - factor * b for a, b in combined])
+                self._drop((i,), (j,))
+                return True
+        return False
+
     # -- common --------------------------------------------------------------------------------------
 
     def _tidy(self, row: list[Polynomial]) -> list[Polynomial]:
@@ -253,10 +275,12 @@ def eliminate(
     certifier: Certifier,
     row_labels: Sequence[str] | None = None,
     column_labels: Sequence[str] | None = None,
+    thorough: bool = False,
 ) -> Reduced:
     """Eliminate those of the candidate columns for which a pivot is proved nonzero everywhere.
 
     The rank of every submatrix that keeps all rows and the candidate columns drops by `constant`.
+    thorough: also where the degrees of what is left may grow.
 
     >>> from singsym.kinematics.placement import ConfigurationSpace
     >>> from singsym.polynomials import Ring
@@ -273,6 +297,7 @@ def eliminate(
         certifier,
         row_labels or [f"{i + 1}" for i in range(matrix.shape[0])],
         column_labels or [f"{j + 1}" for j in range(matrix.width)],
+        thorough,
     )
     work.run()
     rows = tuple(tuple(row) for row in work.entries)
@@ -285,7 +310,7 @@ def reduce_submatrix(matrix: PolynomialMatrix, certifier: Certifier) -> Reduced:
 
     Source: (11)-(13) of the paper, where each of the four matrices is simplified on its own.
     """
-    found = eliminate(matrix, range(matrix.width), certifier)
+    found = eliminate(matrix, range(matrix.width), certifier, thorough=True)
     rows = [i for i, row in enumerate(found.matrix.rows) if any(row)]
     columns = [j for j in range(found.matrix.width) if any(row[j] for row in found.matrix.rows)]
     return Reduced(

@@ -124,8 +124,18 @@ def test_two_dof_reduces_to_one_row_a_loop() -> None:
     entries = {e.primitive() for row in reduction.equation.matrix.rows[2:] for e in row if e}
     named = {collinear(*p).primitive() for p in ("ABC", "BCD", "CGE", "CDG", "CFG")}
     assert entries == named
-    assert any("C1 from rows" in line and "minors 1" in line for line in reduction.lines)
+    assert any("C1 from rows" in line and "squares 1" in line for line in reduction.lines)
     assert reduction.lines[-1] == "every rank is that of the reduced matrix (4x6) + 4"
+
+
+def test_passive_columns_alone_reduce_to_two_determinants() -> None:
+    """L_p loses rank iff B, C, D and C, D, G are collinear (section 3.3, step 2)."""
+    found = reduce_submatrix(two_dof().L_p, Certifier(two_dof().space))
+    assert {row[0].primitive() for row in found.matrix.rows} == {
+        collinear("B", "C", "D").primitive(),
+        collinear("C", "D", "G").primitive(),
+    }
+    assert found.constant == 5
 
 
 def test_outputs_and_inputs_stay() -> None:

@@ -1,0 +1,205 @@
+"""Ranks at a point, and the loci where the rank of a polynomial matrix is too low.
+
+Source: conditions (iii), (vi) of Zlatanov, Fenton, Benhabib (1998), section 2.3, and section 3.2 on how to
+write them as equations.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import chain
+from typing import Any
+
+from flint import fmpq, fmpq_mat, nmod_mat
+
+from singsym.kinematics.nonzero import Certifier
+from singsym.kinematics.reduction import Elimination, reduce_submatrix
+from singsym.minors.blocks import diagonal_blocks
+from singsym.minors.determinant import maximal_minors
+from singsym.minors.factored import factored
+from singsym.polynomials import Polynomial, PolynomialMatrix
+
+
+@dataclass(frozen=True)
+class NumericalRank:
+    """Singular values, largest first, and the rank at a threshold.
+
+    gap: the smallest singular value kept over the largest one dropped; infinite where none is dropped or
+    the dropped ones are zero.
+    """
+
+    rank: int
+    singular_values: tuple[float, ...]
+    threshold: float
+
+    @property
+    def gap(self) -> float:
+        values = self.singular_values
+        if self.rank == len(values) or not self.rank or not values[self.rank]:
+            return float("inf")
+        return values[self.rank - 1] / values[self.rank]
+
+
+def numerical_rank(rows: Sequence[Sequence[float]], relative: float = 1e-9) -> NumericalRank:
+    """The rank of a matrix of floats: singular values above `relative` times the largest one.
+
+    >>> numerical_rank([[1.0, 2.0], [2.0, 4.0]]).rank
+    1
+    """
+    import numpy
+
+    matrix = numpy.array(rows, dtype=float)
+    if not matrix.size:
+        return NumericalRank(0, (), 0.0)
+    values = tuple(float(v) for v in numpy.linalg.svd(matrix, compute_uv=False))
+    threshold = relative * values[0]
+    return NumericalRank(sum(v > threshold for v in values), values, threshold)
+
+
+def rank_at(matrix: PolynomialMatrix, point: Sequence[fmpq]) -> int:
+    """The exact rank at a rational point, in the order of the ring's names.
+
+    >>> from singsym.polynomials import Ring
+    >>> x, y = Ring(("x", "y")).gens
+    >>> rank_at(PolynomialMatrix.of(x.ring, [[x, y], [1, 2]]), [fmpq(1, 2), fmpq(1)])
+    1
+    """
+    height, width = matrix.shape
+    if not height or not width:
+        return 0
+    return int(fmpq_mat(height, width, [fmpq(e) for e in chain(*matrix.evaluate(point))]).rank())
+
+
+def rank_modulo(matrix: PolynomialMatrix, point: Sequence[int], prime: int) -> int:
+    """The rank over a prime field at a point with integer coordinates.
+
+    Raises `ZeroDivisionError` where the prime divides a denominator of the coefficients.
+    """
+    height, width = matrix.shape
+    if not height or not width:
+        return 0
+    values: list[int] = []
+    for entry in chain(*matrix.rows):
+        total = 0
+        for exponents, c in entry.terms():
+            if int(c.q) % prime == 0:
+                raise ZeroDivisionError(f"{prime} divides a denominator of {entry}: take another prime")
+            term = int(c.p) * pow(int(c.q), -1, prime)
+            for value, e in zip(point, exponents, strict=True):
+                term = term * pow(value, int(e), prime) % prime
+            total += term
+        values.append(total % prime)
+    return int(nmod_mat(height, width, values, prime).rank())
+
+
+@dataclass(frozen=True)
+class RankBlocks:
+    """A matrix taken apart: its rank is `constant` plus the sum of the ranks of `blocks`, everywhere.
+
+    shape: of the matrix; record: the eliminations that `constant` counts.
+    """
+
+    shape: tuple[int, int]
+    blocks: tuple[PolynomialMatrix, ...]
+    constant: int
+    record: tuple[Elimination, ...]
+
+    def locus(self, rank: int) -> tuple[PolynomialMatrix, ...] | None:
+        """The blocks of which at least one must lose rank (rows or columns) for the whole to be below `rank`.
+
+        None where `rank` is neither the number of rows nor of columns of what is left after elimination.
+        """
+        wanted = rank - self.constant
+        for side in (0, 1):
+            if wanted == sum(block.shape[side] for block in self.blocks):
+                return self.blocks
+        return None
+
+
+def rank_blocks(matrix: PolynomialMatrix, certifier: Certifier) -> RankBlocks:
+    """Eliminate what has a pivot proved nonzero, drop zero rows and columns, split into diagonal blocks.
+
+    >>> from singsym.kinematics.placement import ConfigurationSpace
+    >>> from singsym.polynomials import Ring
+    >>> R = Ring(("x", "y"))
+    >>> x, y = R.gens
+    >>> space = Certifier(ConfigurationSpace(R, ()))
+    >>> found = rank_blocks(PolynomialMatrix.of(R, [[1, x, 0], [y, 0, 0], [0, 0, y]]), space)
+    >>> [b.rows for b in found.blocks], found.constant
+    ([((-x*y,),), ((y,),)], 1)
+    """
+    reduced = reduce_submatrix(matrix, certifier)
+    blocks = tuple(reduced.matrix.select(rows, columns) for rows, columns in diagonal_blocks(reduced.matrix))
+    return RankBlocks(matrix.shape, blocks, reduced.constant, reduced.record)
+
+
+@dataclass(frozen=True)
+class RankLocus:
+    """Where a matrix has less than full rank: the union over `alternatives` of common zeros of polynomials.
+
+    An alternative (0,) is everywhere; there is none where the rank is full at every feasible configuration.
+    """
+
+    alternatives: tuple[tuple[Polynomial, ...], ...]
+
+    @cached_property
+    def is_everywhere(self) -> bool:
+        return any(all(p.is_zero for p in equations) for equations in self.alternatives)
+
+
+def full_rank_locus(block: PolynomialMatrix, certifier: Certifier) -> tuple[Polynomial, ...] | None:
+    """Polynomials whose common zeros are where a block loses rank; None where it cannot.
+
+    Each is the product of the distinct factors, not proved nonzero, of a maximal minor.
+    """
+    found: dict[Polynomial, None] = {}
+    for _, _, minor in maximal_minors(block):
+        parts = factored((minor,), certifier)
+        if parts.vanishes:
+            continue
+        if not parts.factors:
+            return None
+        product = minor.ring.one
+        for factor in parts.polynomials:
+            product = product * factor
+        found[product] = None
+    if not found:
+        return (block.ring.zero,)
+    return tuple(_minimal(sorted(found, key=lambda p: (p.total_degree, len(p), str(p)))))
+
+
+def _minimal(polynomials: Sequence[Polynomial]) -> list[Polynomial]:
+    """Without multiples of others."""
+    kept: list[Polynomial] = []
+    for p in polynomials:
+        if not any(q.divides(p) for q in kept):
+            kept.append(p)
+    return kept
+
+
+def rank_locus(matrix: PolynomialMatrix, rank: int, certifier: Certifier) -> RankLocus | None:
+    """Where the rank is below `rank`; None where that is not the full rank of what elimination leaves.
+
+    >>> from singsym.kinematics.placement import ConfigurationSpace
+    >>> from singsym.polynomials import Ring
+    >>> R = Ring(("x", "y"))
+    >>> x, y = R.gens
+    >>> space = Certifier(ConfigurationSpace(R, ()))
+    >>> rank_locus(PolynomialMatrix.of(R, [[x, 0], [y, 0], [0, y]]), 2, space).alternatives
+    ((x, y), (y,))
+    """
+    parts = rank_blocks(matrix, certifier)
+    if rank > parts.constant + sum(min(block.shape) for block in parts.blocks):
+        return RankLocus(((matrix.ring.zero,),))
+    blocks = parts.locus(rank)
+    if blocks is None:
+        return None
+    loci = (full_rank_locus(block, certifier) for block in blocks)
+    return RankLocus(tuple(locus for locus in loci if locus is not None))
+
+
+def numerical_ranks(matrices: dict[str, PolynomialMatrix], point: Sequence[Any]) -> dict[str, NumericalRank]:
+    """The numerical rank of each matrix at a point of floats."""
+    return {name: numerical_rank(matrix.evaluate(point)) for name, matrix in matrices.items()}

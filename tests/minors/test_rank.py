@@ -1,0 +1,40 @@
+"""Ranks at points against SymPy, and rank loci against ranks at random points."""
+
+from flint import fmpq
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from singsym.kinematics.nonzero import Certifier
+from singsym.kinematics.placement import ConfigurationSpace
+from singsym.minors.rank import numerical_rank, rank_at, rank_blocks, rank_locus, rank_modulo
+from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
+
+R = Ring(("x", "y", "z"))
+x, y, z = R.gens
+SPACE = Certifier(ConfigurationSpace(R, ()))
+ENTRIES = st.sampled_from([0, 0, 0, 1, x, y, z, x - y, x * z, y + 1])
+MATRICES = st.lists(st.lists(ENTRIES, min_size=3, max_size=3), min_size=4, max_size=4)
+POINTS = st.lists(st.integers(-1, 1), min_size=3, max_size=3)
+
+
+@settings(max_examples=80, deadline=None)
+@given(MATRICES, POINTS)
+def test_ranks_and_rank_locus(rows: list[list[Polynomial]], point: list[int]) -> None:
+    matrix = PolynomialMatrix.of(R, rows)
+    exact = [fmpq(v) for v in point]
+    rank = matrix.to_sympy().subs(dict(zip("xyz", point, strict=True))).rank()
+    assert rank_at(matrix, exact) == rank
+    assert rank_modulo(matrix, point, 1009) == rank
+    assert numerical_rank([[float(int(v)) for v in row] for row in matrix.evaluate(point)]).rank == rank
+    parts = rank_blocks(matrix, SPACE)
+    assert parts.constant + sum(rank_at(block, exact) for block in parts.blocks) == rank
+    locus = rank_locus(matrix, 3, SPACE)
+    assert locus is not None
+    assert any(all(p.evaluate(exact) == 0 for p in a) for a in locus.alternatives) == (rank < 3)
+
+
+def test_gap_of_singular_values() -> None:
+    found = numerical_rank([[1.0, 0.0], [0.0, 1e-12]])
+    assert found.rank == 1
+    assert found.gap > 1e11
+    assert numerical_rank([]).rank == 0
