@@ -1,17 +1,17 @@
-"""Decomposition of a variety by splitting, in the smallest subring first, into pieces proven prime where possible.
+"""Decomposition of a variety by splitting, small subrings first, into pieces proven prime where possible.
 
-Source: dynamic splitting after Greuel and Pfister, "A Singular Introduction to Commutative Algebra", §4, and the
-order of work measured on linkages: factor, branch, substitute, and extend block by block.
+Source: dynamic splitting after Greuel and Pfister, "A Singular Introduction to Commutative Algebra", §4,
+and the order of work measured on linkages: factor, branch, substitute, and extend block by block.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
 
-from singsym.elimination.budget import Budget, Undecided, current
+from singsym.elimination.budget import Budget, current
 from singsym.elimination.ideal import Ideal
+from singsym.elimination.memo import remember
 from singsym.elimination.progress import Sink, report, to
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.irreducibility import analyse, independent_variables, leading_exponents
@@ -28,7 +28,7 @@ from singsym.varieties.splitting import (
 class Component:
     """A piece of a variety: its ideal, whether that is proven prime over Q, and its dimension.
 
-    cohen_macaulay: whether the ideal is known to have no components of another dimension, embedded ones included.
+    cohen_macaulay: whether the ideal is known to be so: of one dimension, without embedded components.
 
     >>> x, y = Ring(("x", "y")).gens
     >>> decompose([x * y], ring=x.ring)
@@ -73,9 +73,9 @@ def decompose(
 ) -> tuple[Component, ...]:
     """The pieces of V(equations) on which no polynomial of `nonzero` vanishes throughout.
 
-    Their union contains V(equations) minus V(product of nonzero), all over the complex numbers, and none contains
-    another.  The relations of the ring's algebraic constants count as equations.  `keep` may drop pieces, also
-    partial ones in fewer variables.  Raises `Undecided` where the budget ends.
+    Their union contains V(equations) minus V(product of nonzero), over the complex numbers, and none contains
+    another.  The relations of the ring's algebraic constants count as equations.  `keep` may drop pieces,
+    also partial ones in fewer variables.  Raises `Undecided` where the budget ends.
 
     >>> x, y = Ring(("x", "y")).gens
     >>> decompose([x**2 - y**2, x * y - y], [y], ring=x.ring)
@@ -105,8 +105,11 @@ def prune(components: Iterable[Component]) -> tuple[Component, ...]:
 def _in_ring(piece: Component, ring: Ring) -> Component:
     """The cylinder over a piece, in a larger ring, with its Groebner basis as generators."""
     free = len(ring.names) - len(piece.ideal.ring.names)
-    basis = Ideal(ring, tuple(ring.convert(p) for p in piece.generators)).groebner_basis()
-    return Component(Ideal(ring, basis), piece.prime, piece.dimension + free, piece.cohen_macaulay)
+    ideal = Ideal(ring, tuple(ring.convert(p) for p in piece.generators), piece.ideal.given)
+    basis = ideal.groebner_basis()
+    return Component(
+        Ideal(ring, basis, ideal.certainty), piece.prime, piece.dimension + free, piece.cohen_macaulay
+    )
 
 
 # -- branching on the given equations ------------------------------------------------------------------
@@ -158,7 +161,9 @@ def _lifted(piece: Component, equation: Polynomial) -> Component:
     ring = equation.ring.with_names(n for n in equation.ring.names if n in names)
     free = len(ring.names) - len(piece.ideal.ring.names) - 1
     generators = (*(ring.convert(p) for p in piece.generators), ring.convert(equation))
-    return Component(Ideal(ring, generators), piece.prime, piece.dimension + free, piece.cohen_macaulay)
+    return Component(
+        Ideal(ring, generators, piece.ideal.given), piece.prime, piece.dimension + free, piece.cohen_macaulay
+    )
 
 
 def _by_levels(
@@ -186,15 +191,21 @@ def _by_levels(
 # -- one ideal -----------------------------------------------------------------------------------------
 
 
-@lru_cache(maxsize=4096)
 def _refine(
     ring: Ring, equations: tuple[Polynomial, ...], nonzero: frozenset[Polynomial], expected: int | None
 ) -> tuple[Component, ...]:
     """Split one ideal by factors of its equations, of its basis, and of eliminants, until it is prime.
 
-    expected: the dimension at which the ideal is Cohen-Macaulay, being cut from such a one by as many equations.
+    expected: the dimension at which the ideal is Cohen-Macaulay, as cut from such a one by single equations.
     """
     current().check("decomposition")
+    key = (ring, frozenset(equations), nonzero, expected)
+    return remember("decompose", key, lambda: _refined(ring, equations, nonzero, expected))
+
+
+def _refined(
+    ring: Ring, equations: tuple[Polynomial, ...], nonzero: frozenset[Polynomial], expected: int | None
+) -> tuple[Component, ...]:
     factored = factor_equations(equations, nonzero)
     if factored is None:
         return ()
@@ -243,7 +254,7 @@ def _by_basis(
         return _refine(ring, (*basis, *single), nonzero, None)
     if linear_substitution(basis) is not None:
         return _refine(ring, basis, nonzero, expected)
-    return _by_eliminant(Ideal(ring, basis), nonzero, expected)
+    return _by_eliminant(Ideal(ring, basis, ideal.certainty), nonzero, expected)
 
 
 def _by_eliminant(
@@ -252,14 +263,18 @@ def _by_eliminant(
     ring = ideal.ring
     basis = ideal.generators
     dimension = len(independent_variables(leading_exponents(basis), len(ring.names)))
+    proven = ideal.certainty == "proven"
     if len(basis) <= 1:
-        return (Component(ideal, True, dimension, True),)
+        return (Component(ideal, proven, dimension, True),)
     unmixed = expected == dimension
     found = analyse(ideal, unmixed=unmixed)
-    new = tuple(f for f in found.factors if not ideal.contains(f))
-    if found.factors and len(new) == len(found.factors):
-        pieces: list[Component] = []
-        for f in new:
-            pieces += _refine(ring, (*basis, f), nonzero, None)
+    if found.factors and not any(ideal.contains(f) for f in found.factors):
+        pieces = [p for f in found.factors for p in _refine(ring, (*basis, f), nonzero, None)]
         return prune(_in_ring(piece, ring) for piece in pieces)
-    return (Component(ideal, found.prime and found.complete, dimension, unmixed or found.complete),)
+    if found.complete:
+        return (Component(ideal, proven, dimension, True),)
+    if found.cut is not None:
+        rest = [_in_ring(piece, ring) for piece in _refine(ring, (*basis, found.cut), nonzero, None)]
+        curve = ideal.saturate(found.cut)
+        return prune((Component(curve, curve.certainty == "proven", dimension, True), *rest))
+    return (Component(ideal, False, dimension, unmixed),)

@@ -11,12 +11,13 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations, combinations_with_replacement
 
-from flint import fmpq, fmpq_mat, fmpq_poly, fmpz_mat, fmpz_mpoly_vec
+from flint import fmpq, fmpq_mat, fmpq_poly, fmpz_mat, nmod_mat
 
 from singsym.elimination.budget import current
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.real.quotient import Algebra, quotient_algebra, standard_monomials
+from singsym.varieties.torsion import NormalForms, presentation, torsion_support
 
 Exponents = tuple[int, ...]
 _LARGEST_FIBRE = 120
@@ -27,12 +28,14 @@ _LARGEST_SEARCH = 330
 class Splitting:
     """What was found: V(I) is the union of the V(I + factor), or I is prime, or (neither) nothing.
 
-    `prime` with `complete` False says that V(I) has one component of full dimension, and maybe smaller ones.
+    `prime` with `complete` False says that V(I) has one component of full dimension, and maybe smaller ones;
+    these then lie in V(cut), which does not contain the component, where `cut` is not None.
     """
 
     factors: tuple[Polynomial, ...] = ()
     prime: bool = False
     complete: bool = False
+    cut: Polynomial | None = None
 
 
 def leading_exponents(basis: Sequence[Polynomial]) -> list[Exponents]:
@@ -136,10 +139,26 @@ def analyse(ideal: Ideal, *, unmixed: bool = False, seed: int = 0) -> Splitting:
         if found.factors:
             return Splitting(tuple(place.back(f).primitive() for f in found.factors))
         if found.prime:
-            best = Splitting(prime=True, complete=unmixed or place.is_free)
-            if best.complete:
-                return best
+            if unmixed or place.is_free:
+                return Splitting(prime=True, complete=True)
+            best = Splitting(prime=True)
+            cut = _cut(place, rng) if place.dimension == 1 else None
+            if cut is not None:
+                return Splitting(prime=True, complete=cut.is_constant, cut=cut)
     return best
+    return best
+
+
+def _cut(place: Coordinates, rng: random.Random) -> Polynomial | None:
+    """A polynomial that vanishes on the points beside the curve; 1 where there are none."""
+    leads = [m[:-1] for m in leading_exponents(place.basis) if not m[-1]]
+    module = presentation(place.ring, place.basis, standard_monomials(leads, place.split))
+    if module is None:
+        return None
+    product = place.ring.one
+    for coefficients in torsion_support(module, rng):
+        product *= place.ring.from_dict({(*(0,) * place.split, i): c for i, c in enumerate(coefficients)})
+    return place.back(product)
 
 
 def _at_fibre(place: Coordinates, rng: random.Random) -> Splitting:
@@ -225,9 +244,9 @@ def _compose(p: Polynomial, images: Sequence[Polynomial], ring: Ring) -> Polynom
 
 
 def relation(basis: Sequence[Polynomial], forms: Sequence[Polynomial]) -> Polynomial | None:
-    """The polynomial of least total degree that vanishes on `forms` modulo a Groebner basis; None if too large.
+    """The polynomial of least total degree that vanishes on `forms` modulo a Groebner basis, or None.
 
-    Where the relations among the forms are a principal ideal it is their generator.  The result lives in a
+    None where it is too large.  Where the relations are a principal ideal it generates them.  It lives in a
     ring t0, t1, ... of its own.
 
     >>> x, y = Ring(("x", "y")).gens
@@ -235,23 +254,10 @@ def relation(basis: Sequence[Polynomial], forms: Sequence[Polynomial]) -> Polyno
     t0^2 + t1^2 - 2
     """
     ring = basis[0].ring
-    tagged = Ring((*ring.names, "_tag"), ring.order)
-    vector = fmpz_mpoly_vec([tagged.convert(p).integer() for p in basis], tagged.integer_context)
-    tag = tagged.gen("_tag")
-    images = [tagged.convert(f) for f in forms]
+    forms_modulo = NormalForms(ring, basis)
     own = Ring(tuple(f"t{i}" for i in range(len(forms))))
-
-    def reduce(p: Polynomial) -> Polynomial:
-        # The tag carries the unknown scalar of FLINT's quasi-division: NF = remainder / its coefficient.
-        remainder = Polynomial(
-            tagged,
-            tagged.context.from_dict(dict((p + tag).integer().reduction_primitive_part(vector).terms())),
-        )
-        scale = remainder.coefficient("_tag", 1).constant
-        return (remainder - tag * scale) / scale
-
     exponents: list[Exponents] = [(0,) * len(forms)]
-    values = {exponents[0]: reduce(tagged.one)}
+    values = {exponents[0]: ring.one}
     degree = 0
     while True:
         degree += 1
@@ -259,7 +265,7 @@ def relation(basis: Sequence[Polynomial], forms: Sequence[Polynomial]) -> Polyno
             current().check("relation")
             m = tuple(chosen.count(i) for i in range(len(forms)))
             i = chosen[-1]
-            values[m] = reduce(values[(*m[:i], m[i] - 1, *m[i + 1 :])] * images[i])
+            values[m] = forms_modulo.reduce(values[(*m[:i], m[i] - 1, *m[i + 1 :])] * forms[i])
             exponents.append(m)
         if len(exponents) > _LARGEST_SEARCH:
             return None
@@ -287,8 +293,6 @@ def _dependency(rows: Sequence[Polynomial]) -> list[fmpq] | None:
 
 
 def _independent_modulo_prime(rows: Sequence[Polynomial], position: dict[Exponents, int]) -> bool:
-    from flint import nmod_mat
-
     prime = 2**61 - 1
     table = [0] * (len(rows) * len(position))
     for i, p in enumerate(rows):

@@ -1,7 +1,7 @@
 """The cheap steps of splitting: factor, drop what is known not to vanish, substitute, and order the work.
 
-Source: the factorising Buchberger and characteristic-set algorithms (Czapor 1989; Wang 1993); the order is the
-block structure of equations against variables, as in the Dulmage-Mendelsohn decomposition.
+Source: the factorising Buchberger and characteristic-set algorithms (Czapor 1989; Wang 1993); the order is
+the block structure of equations against variables, as in the Dulmage-Mendelsohn decomposition.
 """
 
 from __future__ import annotations
@@ -111,13 +111,10 @@ def levels(equations: Sequence[Polynomial]) -> tuple[Level, ...]:
     order = equations[0].ring.names
     cut: list[Level] = []
     pending: list[Polynomial] = []
-    count = 0
     for i, (variables, p) in enumerate(best):
         pending.append(p)
-        count += 1
-        excess = len(variables) - count
-        last = i + 1 == len(best)
-        if last or (len(best[i + 1][0]) > len(variables) and excess < _next_minimum(best, i)):
+        excess = len(variables) - (i + 1)
+        if i + 1 == len(best) or (len(best[i + 1][0]) > len(variables) and excess < _next_minimum(best, i)):
             cut.append(Level(tuple(n for n in order if n in variables), tuple(pending)))
             pending = []
     return tuple(cut)

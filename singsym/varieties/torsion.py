@@ -1,0 +1,161 @@
+"""Whether a curve's ideal has isolated or embedded points beside the curve, and over which values they lie.
+
+Source: presentation of Q[x]/I as a module over Q[u] by its standard monomials (Cox, Little, O'Shea, "Using
+Algebraic Geometry", ch. 5); over the principal ideal domain Q[u], torsion-free means free.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from flint import fmpq, fmpq_mat, fmpz_mpoly_vec, nmod_mat, nmod_poly
+
+from singsym.elimination.budget import current
+from singsym.elimination.engines.division import remainder
+from singsym.polynomials import Polynomial, Ring
+
+Exponents = tuple[int, ...]
+_PRIME = 2305843009213693951
+_LARGEST = 80
+
+
+class NormalForms:
+    """Exact normal forms modulo a Groebner basis.
+
+    >>> x, y = Ring(("x", "y")).gens
+    >>> NormalForms(x.ring, (2 * x - 1,)).reduce(4 * x * y + y)
+    3*y
+    """
+
+    def __init__(self, ring: Ring, basis: Sequence[Polynomial]) -> None:
+        name = next(n for k in range(len(ring.names) + 1) if (n := f"tag{k}") not in ring.names)
+        self.ring = ring
+        self._tagged = Ring((*ring.names, name), ring.order)
+        self._tag = self._tagged.gen(name)
+        self._vector = fmpz_mpoly_vec(
+            [self._tagged.convert(p).integer() for p in basis], self._tagged.integer_context
+        )
+
+    def reduce(self, p: Polynomial) -> Polynomial:
+        """The remainder; the tag, which nothing reduces, carries the scalar of the division."""
+        if not p:
+            return p
+        terms = remainder((self._tagged.convert(p) + self._tag).integer(), self._vector).to_dict()
+        scalar = terms.pop((*(0,) * len(self.ring.names), 1))
+        return self.ring.from_dict({m[:-1]: c for m, c in terms.items()}) / scalar
+
+
+@dataclass(frozen=True)
+class Presentation:
+    """The module as F + Q[u]^E with relations u e_i = sum_j action[i][j] e_j + rest[i], rest in the free F.
+
+    F is spanned by the standard monomials on infinite strips x^a u^b (all b), E by those on finite strips.
+    """
+
+    action: tuple[tuple[fmpq, ...], ...]
+    rest: tuple[dict[tuple[Exponents, int], fmpq], ...]
+
+
+def presentation(ring: Ring, basis: Sequence[Polynomial], within: Sequence[Exponents]) -> Presentation | None:
+    """The presentation for u the last variable; None where it is too large.
+
+    within: the exponents in the other variables of all standard monomials.
+    """
+    leads = [p.terms()[0][0] for p in basis]
+    heights: dict[Exponents, int] = {}
+    for a in within:
+        tops = [m[-1] for m in leads if all(i >= j for i, j in zip(a, m[:-1], strict=True))]
+        if tops:
+            heights[a] = min(tops)
+    finite = [(a, b) for a, top in heights.items() for b in range(top)]
+    if len(finite) > _LARGEST:
+        return None
+    position = {key: i for i, key in enumerate(finite)}
+    forms = NormalForms(ring, basis)
+    action, rest = [], []
+    for a, b in finite:
+        row, outside = [fmpq(0)] * len(finite), {}
+        if (a, b + 1) in position:
+            row[position[a, b + 1]] = fmpq(1)
+        else:
+            current().check("torsion")
+            for m, c in forms.reduce(ring.from_dict({(*a, b + 1): 1})).terms():
+                key = (m[:-1], m[-1])
+                if key in position:
+                    row[position[key]] = c
+                else:
+                    outside[key] = c
+        action.append(tuple(row))
+        rest.append(outside)
+    return Presentation(tuple(action), tuple(rest))
+
+
+def torsion_support(module: Presentation, rng: random.Random) -> list[list[fmpq]]:
+    """Polynomials in u (coefficients, constant first) over whose zeros there may be torsion; [] proves none.
+
+    Lemma: there is torsion over c exactly where [c - action | -rest(c)] drops rank, and then every
+    det(u - action - rest(u) Z), Z constant, vanishes at c.  c is integral over the prime's local ring, so
+    coprime determinants modulo the prime exclude it.
+    """
+    size = len(module.action)
+    if not size:
+        return []
+    characteristic = fmpq_mat([list(row) for row in module.action]).charpoly()
+    entries = [c for row in module.action for c in row] + [c for r in module.rest for c in r.values()]
+    if any(int(c.q) % _PRIME == 0 for c in entries):
+        return [f.coeffs() for f, _ in characteristic.factor()[1]]
+    first = nmod_poly([_residue(c) for c in characteristic.coeffs()], _PRIME)
+    common = first
+    for _ in range(2):
+        common = common.gcd(_determinant(module, rng))
+        if common.degree() == 0:
+            return []
+    coefficients = (f.coeffs() for f, _ in characteristic.factor()[1])
+    return [c for c in coefficients if _may_share_root(c, common)]
+
+
+def _may_share_root(coefficients: Sequence[fmpq], common: nmod_poly) -> bool:
+    if any(int(c.q) % _PRIME == 0 for c in coefficients):
+        return True
+    return bool(nmod_poly([_residue(c) for c in coefficients], _PRIME).gcd(common).degree() > 0)
+
+
+def _residue(c: fmpq) -> int:
+    return int(c.p) * pow(int(c.q), -1, _PRIME) % _PRIME
+
+
+def _determinant(module: Presentation, rng: random.Random) -> nmod_poly:
+    """det(u - action - rest(u) Z) modulo the prime, for a random Z, by interpolation."""
+    size = len(module.action)
+    strips = sorted({a for r in module.rest for a, _ in r})
+    mix = {a: [rng.randrange(_PRIME) for _ in range(size)] for a in strips}
+    action = [[_residue(c) for c in row] for row in module.action]
+    rest = [[(a, b, _residue(c)) for (a, b), c in r.items()] for r in module.rest]
+    degree = size + sum(max((b for _, b, _ in r), default=0) for r in rest)
+    values = []
+    for point in range(degree + 1):
+        rows = []
+        for i in range(size):
+            row = [-c for c in action[i]]
+            row[i] += point
+            for a, b, c in rest[i]:
+                scale = c * pow(point, b, _PRIME)
+                row = [e - scale * z for e, z in zip(row, mix[a], strict=True)]
+            rows.append([e % _PRIME for e in row])
+        values.append(nmod_mat(rows, _PRIME).det())
+    return _interpolated([int(v) for v in values])
+
+
+def _interpolated(values: Sequence[int]) -> nmod_poly:
+    """The polynomial with these values at 0, 1, 2, ... by Newton's divided differences."""
+    table = list(values)
+    for k in range(1, len(table)):
+        inverse = pow(k, -1, _PRIME)
+        for i in range(len(table) - 1, k - 1, -1):
+            table[i] = (table[i] - table[i - 1]) * inverse % _PRIME
+    result = nmod_poly([table[-1]], _PRIME)
+    for k in range(len(table) - 2, -1, -1):
+        result = result * nmod_poly([-k % _PRIME, 1], _PRIME) + table[k]
+    return result
