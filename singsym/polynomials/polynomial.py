@@ -43,16 +43,18 @@ class Polynomial:
     [(x + y, 1), (x - y, 1)]
     """
 
-    __slots__ = ("_hash", "ring", "value")
+    __slots__ = ("_hash", "_integer", "ring", "value")
 
     ring: Ring
     value: fmpq_mpoly
     _hash: int
+    _integer: fmpz_mpoly | None
 
     def __init__(self, ring: Ring, value: fmpq_mpoly) -> None:
         object.__setattr__(self, "ring", ring)
         object.__setattr__(self, "value", value)
         object.__setattr__(self, "_hash", 0)
+        object.__setattr__(self, "_integer", None)
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError(f"a Polynomial is immutable: {name} cannot be set")
@@ -205,20 +207,27 @@ class Polynomial:
 
     def integer(self) -> fmpz_mpoly:
         """The primitive integer multiple as FLINT's `fmpz_mpoly`, for engines."""
-        terms = self.terms()
-        if not terms:
-            return self.ring.integer_context.from_dict({})
+        if self._integer is None:
+            object.__setattr__(self, "_integer", self._cleared())
+        assert self._integer is not None
+        return self._integer
+
+    def _cleared(self) -> fmpz_mpoly:
+        coefficients = self.value.coeffs()
         denominator = fmpz(1)
-        for _, c in terms:
+        for c in coefficients:
             denominator = denominator.lcm(c.q)
-        content = fmpz(0)
-        cleared = {}
-        for m, c in terms:
-            cleared[m] = c.p * (denominator // c.q)
-            content = content.gcd(cleared[m])
-        if terms[0][1] < 0:
-            content = -content
-        return self.ring.integer_context.from_dict({m: c // content for m, c in cleared.items()})
+        if denominator != 1:
+            numerators = [(c * denominator).p for c in coefficients]
+        else:
+            numerators = [c.p for c in coefficients]
+        cleared = self.ring.integer_context.from_dict(
+            dict(zip(self.value.monoms(), numerators, strict=True))
+        )
+        if not numerators:
+            return cleared
+        _, primitive = cleared.primitive()
+        return -primitive if numerators[0] < 0 else primitive
 
     def substitute(self, values: Mapping[str, Operand]) -> Polynomial:
         """Replace variables by polynomials or rationals of the same ring, all at once.

@@ -1,0 +1,196 @@
+"""The result of a classification: loci, the 21 classes, their pieces and witnesses, as data.
+
+Source: Zlatanov, Fenton, Benhabib (1998), section 3.2 and the layout of Table 2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from singsym.classes.types import Defects, SingularityClass, SingularityType
+from singsym.elimination.verdict import Verdict
+from singsym.kinematics.reduction import Reduction
+from singsym.kinematics.velocity import VelocityEquation
+from singsym.mechanism.model import Mechanism
+from singsym.polynomials import Polynomial
+
+Equations = tuple[Polynomial, ...]
+
+
+@dataclass(frozen=True)
+class Configuration:
+    """A certified configuration: decimal strings by name, each within `radius` of the exact value.
+
+    coordinates: the configuration variables; points: coordinates of the named points as `B.x`;
+    joints: joint angles in radians and slides, by column.
+    """
+
+    coordinates: Mapping[str, str]
+    points: Mapping[str, str]
+    joints: Mapping[str, str]
+    radius: str
+
+    def as_json(self) -> dict[str, str]:
+        """One flat object name -> decimal string, with `radius`."""
+        return {**self.coordinates, **self.points, **self.joints, "radius": self.radius}
+
+    def floats(self) -> dict[str, float]:
+        """The configuration variables as floats, for drawing."""
+        return {name: float(value) for name, value in self.coordinates.items()}
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A part of a class: the real zeros of `basis` off the common zeros of each exclusion.
+
+    path: the factors and minors set to zero on the way here, as they are printed.
+    basis: generators of the ideal of the piece, loop equations included.
+    dimension: the real dimension, -1 when empty, None where undecided.
+    points: the number of real points of a finite piece; components: connected components where known.
+    """
+
+    path: Equations
+    basis: Equations
+    exclusions: tuple[Equations, ...]
+    defects: Defects
+    complex_dimension: int
+    verdict: Verdict
+    dimension: int | None = None
+    points: int | None = None
+    components: int | None = None
+    witnesses: tuple[Configuration, ...] = ()
+
+
+@dataclass(frozen=True)
+class Locus:
+    """The zero set of one factor of condition (4) or (5) on the configuration space.
+
+    words: what the factor says of the mechanism's points and axes, or "".
+    points: real points of a finite locus; components: connected components of a curve, where known.
+    """
+
+    condition: str
+    factor: Polynomial
+    words: str
+    latex: str
+    verdict: Verdict
+    dimension: int | None = None
+    components: int | None = None
+    points: int | None = None
+
+
+@dataclass(frozen=True)
+class ClassResult:
+    """One of the 21 classes for a mechanism.
+
+    steps: the steps of section 3.2 in which it was found or excluded.
+    """
+
+    singularity_class: SingularityClass
+    verdict: Verdict
+    pieces: tuple[Piece, ...]
+    dimension: int | None
+    points: int | None
+    components: int | None
+    steps: tuple[str, ...]
+    conditions: str
+
+    @property
+    def types(self) -> SingularityType:
+        """The types of the class."""
+        return self.singularity_class.types
+
+    @property
+    def witnesses(self) -> tuple[Configuration, ...]:
+        """Certified configurations, those of the largest pieces first."""
+        return tuple(w for piece in self.pieces for w in piece.witnesses)
+
+
+@dataclass(frozen=True)
+class SpacePiece:
+    """A component of the configuration space: its dimension, whether it is smooth, its generic defects."""
+
+    dimension: int | None
+    smooth: str
+    defects: Defects
+    verdict: Verdict
+    basis: Equations = ()
+    remark: str = ""
+
+
+@dataclass(frozen=True)
+class Classification:
+    """Everything found out about a mechanism's singularities; see `as_json` for the fields in plain data."""
+
+    mechanism: Mechanism
+    equation: VelocityEquation
+    reduction: Reduction
+    configuration_space: tuple[SpacePiece, ...]
+    loci: tuple[Locus, ...]
+    classes: tuple[ClassResult, ...]
+    engines: tuple[str, ...]
+    seconds: float = field(compare=False)
+
+    @property
+    def undecided(self) -> bool:
+        """Whether any class is undecided."""
+        return any(c.verdict.is_undecided for c in self.classes)
+
+    def of(self, types: SingularityType) -> ClassResult:
+        """The result for the class of exactly these types; raises `KeyError` for others."""
+        for result in self.classes:
+            if result.types == types:
+                return result
+        raise KeyError(f"{types!r} is not one of the {len(self.classes)} classes")
+
+    def as_json(self) -> dict[str, Any]:
+        """The fields that `singsym classify --format json` prints."""
+        return {
+            "mechanism": self.mechanism.name,
+            "N": self.equation.N,
+            "n": self.equation.n,
+            "configuration_space": [
+                {
+                    "dimension": piece.dimension,
+                    "smooth": piece.smooth,
+                    "delta": piece.defects.delta,
+                    "certainty": piece.verdict.certainty,
+                    "remark": piece.remark,
+                }
+                for piece in self.configuration_space
+            ],
+            "loci": [
+                {
+                    "condition": locus.condition,
+                    "factor": str(locus.factor),
+                    "latex": locus.latex,
+                    "words": locus.words,
+                    "dimension": locus.dimension,
+                    "components": locus.components,
+                    "points": locus.points,
+                    "verdict": str(locus.verdict.answer),
+                    "reason": locus.verdict.reason,
+                }
+                for locus in self.loci
+            ],
+            "classes": [
+                {
+                    "number": result.singularity_class.number,
+                    "types": result.types.names,
+                    "verdict": str(result.verdict.answer),
+                    "certainty": str(result.verdict.certainty),
+                    "dimension": result.dimension,
+                    "points": result.points,
+                    "components": result.components,
+                    "witnesses": [w.as_json() for w in result.witnesses],
+                    "conditions": result.conditions,
+                    "steps": list(result.steps),
+                    "reason": result.verdict.reason,
+                }
+                for result in self.classes
+            ],
+            "engines": list(self.engines),
+            "seconds": round(self.seconds, 3),
+        }

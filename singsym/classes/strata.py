@@ -1,0 +1,264 @@
+"""Strata of the configuration space on which the four ranks are constant.
+
+Source: Zlatanov, Fenton, Benhabib (1998), sections 2.3 and 3; the bordered minors are Kronecker's theorem.
+
+Lemma (Kronecker). Where an r-minor of a matrix does not vanish, the rank is r exactly if all (r+1)-minors
+that border it vanish.  So one minor outside an ideal and its bordering minors inside it fix the rank on
+V(ideal) minus V(minor), whether the ideal is prime or not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from math import comb
+
+from singsym.classes.types import Defects
+from singsym.elimination.ideal import Ideal
+from singsym.minors.determinant import determinant
+from singsym.polynomials import Polynomial, PolynomialMatrix
+
+ALL_MINORS = 24
+"""Up to this many minors of a block, its rank locus is written with all of them."""
+
+
+@dataclass(frozen=True)
+class RankProblem:
+    """The four matrices of a mechanism, each split into blocks whose ranks add.
+
+    blocks: for each of `L L_I L_O L_p` the blocks of a matrix with the same rank up to `constants`.
+    N, n: the number of 1-DOF joints and the mobility.
+    """
+
+    blocks: Mapping[str, tuple[PolynomialMatrix, ...]]
+    constants: Mapping[str, int]
+    N: int
+    n: int
+
+    def defects(self, ranks: Mapping[str, int]) -> Defects:
+        """(delta, p, k_I, k_O) from the summed ranks of the blocks.
+
+        Source: theory of the four ranks; conditions (i)-(vi) of the paper, section 2.3.
+        """
+        full = {name: ranks[name] + self.constants[name] for name in ranks}
+        return Defects.of_ranks(full["L"], full["L_I"], full["L_O"], full["L_p"], self.N, self.n)
+
+
+@dataclass(frozen=True)
+class BlockRank:
+    """The rank of a block where the `minors` of that size do not all vanish."""
+
+    rank: int
+    minors: tuple[Polynomial, ...]
+
+
+@dataclass(frozen=True)
+class Stratum:
+    """V(ideal) minus the loci where the ranks drop: there the defects, or at least the types, are constant.
+
+    degenerate: of each tuple, not all polynomials vanish on the stratum.
+    loci: the same for each of the four matrices by name, those whose drop would change the types.
+    """
+
+    ideal: Ideal
+    prime: bool
+    defects: Defects
+    loci: Mapping[str, tuple[tuple[Polynomial, ...], ...]]
+
+    @property
+    def degenerate(self) -> tuple[tuple[Polynomial, ...], ...]:
+        """All loci of all matrices, without repetitions."""
+        seen = {tuple(locus): None for name in sorted(self.loci) for locus in self.loci[name]}
+        return tuple(seen)
+
+
+@dataclass(frozen=True)
+class Ground:
+    """Where ranks are asked for: V(ideal), with numerical real points on it to guess from."""
+
+    ideal: Ideal
+    prime: bool
+    samples: tuple[tuple[float, ...], ...] = ()
+
+    def vanishes(self, polynomial: Polynomial) -> bool:
+        """Whether a polynomial is zero on V(ideal), where True is proven and False may be a guess.
+
+        A wrong False is harmless: it only makes a stratum empty and sends V(ideal) down as a locus again.
+        """
+        if self.ideal.contains(polynomial):
+            return True
+        if self.prime or any(self._is_large(polynomial, x) for x in self.samples):
+            return False
+        return self.ideal.radical_contains(polynomial)
+
+    def _is_large(self, polynomial: Polynomial, x: tuple[float, ...]) -> bool:
+        value = abs(polynomial.evaluate(x))
+        return bool(value > 1e-6 * max(abs(float(c.p) / float(c.q)) for _, c in polynomial.terms()))
+
+    def start(self, block: PolynomialMatrix) -> tuple[tuple[int, ...], tuple[int, ...]]:
+        """Rows and columns of a minor that is as large as the numerical rank at the samples."""
+        best: tuple[tuple[int, ...], tuple[int, ...]] = ((), ())
+        for x in self.samples:
+            found = pivots([[float(e) for e in row] for row in block.evaluate(x)])
+            if len(found[0]) > len(best[0]):
+                best = found
+        return best
+
+
+def _bordered(
+    shape: tuple[int, int], rows: Sequence[int], columns: Sequence[int]
+) -> Iterator[tuple[tuple[int, ...], tuple[int, ...]]]:
+    for i in range(shape[0]):
+        if i in rows:
+            continue
+        for j in range(shape[1]):
+            if j not in columns:
+                yield tuple(sorted((*rows, i))), tuple(sorted((*columns, j)))
+
+
+def block_rank(block: PolynomialMatrix, ground: Ground) -> BlockRank:
+    """The rank of a matrix on V(ideal) minus the common zeros of the minors returned.
+
+    Grows a nonvanishing minor border by border until all bordering minors vanish (lemma above); of several
+    nonvanishing ones the one with the simplest factors is taken.
+
+    >>> from singsym.polynomials import Ring
+    >>> R = Ring(("x", "y"))
+    >>> x, y = R.gens
+    >>> block_rank(PolynomialMatrix.of(R, [[x, y], [x, y]]), Ground(Ideal(R, (y,)), True))
+    BlockRank(rank=1, minors=(x,))
+    """
+    rows, columns = ground.start(block)
+    last = determinant(block.select(rows, columns)) if rows else None
+    if last is not None and ground.vanishes(last):
+        rows, columns, last = (), (), None
+    while True:
+        candidates = []
+        for r, c in _bordered(block.shape, rows, columns):
+            minor = determinant(block.select(r, c))
+            if minor and not ground.vanishes(minor):
+                candidates.append((_weight(minor), r, c, minor))
+                if minor.is_constant:
+                    break
+        if not candidates:
+            break
+        _, rows, columns, last = min(candidates, key=lambda t: t[:3])
+    if last is None:
+        return BlockRank(0, ())
+    if last.is_constant:
+        return BlockRank(len(rows), ())
+    return BlockRank(len(rows), _locus(block, ground, rows, columns))
+
+
+def _weight(minor: Polynomial) -> tuple[int, int]:
+    return (minor.total_degree, len(minor))
+
+
+def _locus(
+    block: PolynomialMatrix, ground: Ground, rows: tuple[int, ...], columns: tuple[int, ...]
+) -> tuple[Polynomial, ...]:
+    """r-minors whose common zeros on V(ideal) contain the locus of lower rank: all where they are few."""
+    r = len(rows)
+    choices: list[tuple[tuple[int, ...], tuple[int, ...]]] = []
+    if comb(block.shape[0], r) * comb(block.shape[1], r) <= ALL_MINORS:
+        choices = [
+            (i, j)
+            for i in combinations(range(block.shape[0]), r)
+            for j in combinations(range(block.shape[1]), r)
+        ]
+    else:
+        choices = [(rows, columns), *_swapped(block.shape, rows, columns)]
+    minors: dict[Polynomial, None] = {}
+    for i, j in choices:
+        minor = determinant(block.select(i, j))
+        if not minor or ground.vanishes(minor):
+            continue
+        if minor.is_constant:
+            return ()
+        minors[minor.squarefree_part()] = None
+    return tuple(sorted(minors, key=lambda m: (_weight(m), str(m))))
+
+
+def _swapped(
+    shape: tuple[int, int], rows: tuple[int, ...], columns: tuple[int, ...]
+) -> Iterator[tuple[tuple[int, ...], tuple[int, ...]]]:
+    """Index sets that differ from the given ones in one row or one column."""
+    for out in rows:
+        for new in range(shape[0]):
+            if new not in rows:
+                yield tuple(sorted({*rows, new} - {out})), columns
+    for out in columns:
+        for new in range(shape[1]):
+            if new not in columns:
+                yield rows, tuple(sorted({*columns, new} - {out}))
+
+
+def relevant(defects: Defects) -> tuple[str, ...]:
+    """The matrices whose further loss of rank can change the singularity types.
+
+    With k_O = 0 there is neither IIM nor RPM, and the types depend on whether k_I is zero only (vii); dually.
+
+    >>> relevant(Defects(0, 0, 1, 0))
+    ('L_O',)
+    """
+    delta, p, k_I, k_O = defects.delta, defects.p, defects.k_I, defects.k_O
+    if k_O == 0 and k_I == 0:
+        return ("L_I", "L_O")
+    if k_O == 0:
+        return ("L_O",)
+    if k_I == 0:
+        return ("L_I",)
+    names = ["L_p", "L"]
+    if k_I == max(p, delta):
+        names.append("L_I")
+    if k_O == max(p, delta):
+        names.append("L_O")
+    return tuple(names)
+
+
+def stratum(problem: RankProblem, ground: Ground) -> Stratum:
+    """The generic stratum of V(ideal): its defects, and the loci that have to be taken out.
+
+    For a square matrix of full rank the locus is its determinant's zero set, block by block.
+    """
+    ranks: dict[str, int] = {}
+    loci: dict[str, tuple[tuple[Polynomial, ...], ...]] = {}
+    known: dict[PolynomialMatrix, BlockRank] = {}
+    for name, blocks in problem.blocks.items():
+        for block in blocks:
+            if block not in known:
+                known[block] = block_rank(block, ground)
+        ranks[name] = sum(known[block].rank for block in blocks)
+        loci[name] = tuple(known[block].minors for block in blocks if known[block].minors)
+    defects = problem.defects(ranks)
+    return Stratum(ground.ideal, ground.prime, defects, {name: loci[name] for name in relevant(defects)})
+
+
+def pivots(matrix: list[list[float]]) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Rows and columns of a well-conditioned minor of a numerical matrix, by complete pivoting.
+
+    >>> pivots([[0.0, 2.0], [0.0, 1.0]])
+    ((0,), (1,))
+    """
+    work = [row[:] for row in matrix]
+    scale = max((abs(e) for row in work for e in row), default=0.0)
+    rows: list[int] = []
+    columns: list[int] = []
+    while True:
+        rest = [
+            (abs(work[i][j]), i, j)
+            for i in range(len(work))
+            if i not in rows
+            for j in range(len(work[i]))
+            if j not in columns
+        ]
+        size, i, j = max(rest, default=(0.0, -1, -1))
+        if size <= 1e-7 * scale or scale == 0.0:
+            return tuple(sorted(rows)), tuple(sorted(columns))
+        rows.append(i)
+        columns.append(j)
+        for k in range(len(work)):
+            if k not in rows:
+                factor = work[k][j] / work[i][j]
+                work[k] = [a - factor * b for a, b in zip(work[k], work[i], strict=True)]
