@@ -12,6 +12,7 @@ from difflib import get_close_matches
 import networkx
 import sympy
 
+from singsym.mechanism.expressions import expression
 from singsym.mechanism.model import (
     Joint,
     JointKind,
@@ -123,17 +124,15 @@ def _parameters(mechanism: Mechanism) -> Iterator[Finding]:
         if p.value is None and p.low is None and p.high is None:
             yield f"parameters.{p.name}", "neither value nor range", "value or between = [low, high]", advice
     try:
-        values = {sympy.Symbol(p.name): p.value for p in mechanism.parameters if p.value is not None}
-        resolved = mechanism.resolved
+        values, resolved = mechanism.values, mechanism.resolved
     except MechanismError as error:
         yield from ((e.place, e.found, e.expected, e.advice) for e in error.problems)
         return
-    for _ in values:
-        values = {name: value.xreplace(values) for name, value in values.items()}
+    names = {p.name for p in mechanism.parameters}
     for p in mechanism.parameters:
         place = f"parameters.{p.name}"
         value = sympy.Symbol(p.name).xreplace(values)
-        low, high = (None if b is None else b.xreplace(values) for b in (p.low, p.high))
+        low, high = (None if b is None else expression(b, names).xreplace(values) for b in (p.low, p.high))
         below = low is not None and (value - low).is_positive is False
         above = high is not None and (high - value).is_positive is False
         if p.value is not None and (below or above):

@@ -257,31 +257,52 @@ class Mechanism:
         return replace(self, parameters=changed)
 
     @cached_property
-    def resolved(self) -> Mechanism:
-        """The same mechanism with every parameter that has a value replaced by it: kinematics starts here.
+    def values(self) -> dict[sympy.Symbol, sympy.Expr]:
+        """The parameters' values, each with the others put in.
 
-        Raises `MechanismError` where parameters are defined by each other in a circle.
+        Raises `MechanismError` where they are defined by each other in a circle.
         """
-        values = {sympy.Symbol(p.name): p.value for p in self.parameters if p.value is not None}
+        names = {p.name for p in self.parameters}
+        values = {
+            sympy.Symbol(p.name): expression(p.value, names, place=f"parameters.{p.name}", file=self.origin)
+            for p in self.parameters
+            if p.value is not None
+        }
         for _ in values:
             values = {name: value.xreplace(values) for name, value in values.items()}
         circular = sorted(str(name) for name, value in values.items() if value.free_symbols & values.keys())
         if circular:
             expected = "values that do not depend on each other in a circle"
             raise MechanismError([Problem("parameters", ", ".join(circular), expected, file=self.origin)])
-        return self._replaced(values) if values else self
+        return values
 
-    def _replaced(self, values: Mapping[sympy.Expr, sympy.Expr]) -> Mechanism:
-        def put(value: sympy.Expr | None) -> sympy.Expr | None:
-            return None if value is None else value.xreplace(values)
+    @cached_property
+    def resolved(self) -> Mechanism:
+        """The same mechanism with every parameter that has a value replaced by it: kinematics starts here.
 
-        def vectors(named: Mapping[str, Vector]) -> dict[str, Vector]:
-            return {name: tuple(x.xreplace(values) for x in vector) for name, vector in named.items()}
+        Dimensions given as numbers, Fractions or text in the file's grammar are SymPy expressions in it.
+        """
+        return self._put(self.values)
+
+    def _put(self, values: Mapping[sympy.Symbol, sympy.Expr]) -> Mechanism:
+        """Every dimension as a SymPy expression, with these values put in; parameters with a value go."""
+        names = {p.name for p in self.parameters}
+
+        def put(value: Any, place: str = "") -> sympy.Expr | None:
+            if value is None:
+                return None
+            return expression(value, names, place=place, file=self.origin).xreplace(values)
+
+        def vectors(named: Mapping[str, Vector], place: str) -> dict[str, Vector]:
+            return {name: tuple(put(x, f"{place}.{name}") for x in v) for name, v in named.items()}
 
         return replace(
             self,
-            links=tuple(replace(k, points=vectors(k.points), axes=vectors(k.axes)) for k in self.links),
-            joints=tuple(replace(j, pitch=put(j.pitch)) for j in self.joints),
+            links=tuple(
+                Link(k.name, vectors(k.points, f"links.{k.name}"), vectors(k.axes, f"links.{k.name}"))
+                for k in self.links
+            ),
+            joints=tuple(replace(j, pitch=put(j.pitch, f"joints.{j.name}.pitch")) for j in self.joints),
             parameters=tuple(
                 replace(p, low=put(p.low), high=put(p.high)) for p in self.parameters if p.value is None
             ),

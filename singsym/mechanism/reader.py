@@ -85,12 +85,12 @@ class Reader:
         return [self.name(v, f"{place}[{i}]") for i, v in enumerate(self.items(value, place))]
 
     def expression(self, value: Any, place: str) -> sympy.Expr:
-        """An expression in the parameters; zero where it cannot be read."""
+        """An expression in the parameters; a symbol that passes all later tests where it cannot be read."""
         try:
             return expression(value, self.parameters, place=place, file=self.file)
         except MechanismError as error:
             self.problems.extend(error.problems)
-            return sympy.Integer(0)
+            return sympy.Symbol("unreadable")
 
     def angle(self, value: Any, place: str) -> sympy.Expr:
         """An angle in radians: a rational multiple of pi, or a bare rational, which is in degrees."""

@@ -6,7 +6,7 @@ Source: singsym's own format.
 from __future__ import annotations
 
 _TEXT = """\
-# A mechanism for singsym.  Lines that start with # are comments; what is commented out shows further possibilities.
+# A mechanism for singsym.  Lines that start with # are comments; those after a key show more.
 name = "@NAME@"
 title = "Four-bar linkage"
 source = ""                    # where it is published
@@ -19,8 +19,8 @@ inputs = ["A"]
 
 # As many outputs as inputs: one table, or a list of tables.
 output = { rate = "D" }
-# output = { velocity = "B" }                                     # of a point; components = ["x"] for one of them
-# output = { twist = "BC", at = "B", components = ["w"] }         # of w vx vy; spatial: wx wy wz vx vy vz
+# output = { velocity = "B" }                               # of a point; components = ["x"] for one
+# output = { twist = "BC", at = "B", components = ["w"] }   # of w vx vy; spatial: wx wy wz vx vy vz
 # output = [{ rate = "D" }, { velocity = "B", components = ["y"] }]
 
 # Numbers are exact: 7/2, 3.5 and sqrt(3)/2 are what they spell; sin and cos take 40 deg or pi/3.
@@ -39,8 +39,8 @@ CD = 3
 # slider = { points = { C = [0, 0] }, axes = { x = [1, 0] } }     # axes are unit vectors
 # arm = { points = { A0 = [0, 0, 0], A = ["l", 0, 0] }, axes = { z = [0, 0, 1] } }   # in space
 
-# A joint "A" joins the links that have a point A, unless links = [...] says which; more than two links on one pin
-# become joints A1, A2, ... in that order.  Types: R P H C U S E.
+# A joint "A" joins the links that have a point A, unless links = [...] says which.  Three or more links on
+# one pin become joints A1, A2, ... in that order.  Types: R P H C U S E.
 [joints]
 A = "R"
 B = "R"

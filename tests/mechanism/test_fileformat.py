@@ -1,0 +1,204 @@
+"""Files to mechanisms and back."""
+
+import pickle
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+import sympy
+
+from singsym.mechanism import (
+    JointKind,
+    JointRate,
+    MechanismError,
+    PointVelocity,
+    Twist,
+    define,
+    dumps,
+    load,
+    loads,
+)
+from singsym.mechanism.library import names
+from singsym.mechanism.starter import starter
+
+FOURBAR = """
+inputs = ["A"]
+output = { rate = "D" }
+[links]
+ground = { points = { A = [0, 0], D = [4, 0] } }
+AB = 1
+BC = 3.5
+CD = 3
+[joints]
+A = "R"
+B = "R"
+C = "R"
+D = "R"
+"""
+
+
+@pytest.mark.parametrize("name", names())
+def test_library_round_trip(name: str) -> None:
+    mechanism = load(name)
+    assert mechanism.name == name
+    assert mechanism.source
+    assert loads(dumps(mechanism), origin=mechanism.origin) == mechanism
+    assert pickle.loads(pickle.dumps(mechanism)) == mechanism
+
+
+def test_paper_2dof() -> None:
+    # Section 3.3: N = 8, n = 2; C is one pin with three links.
+    m = load("zlatanov-2dof")
+    assert (m.N, m.n) == (8, 2)
+    assert m.columns == ("A", "B", "C1", "C2", "D", "E", "F", "G")
+    assert [(j.first, j.second) for j in m.joints if j.name in ("C1", "C2")] == [("BC", "CD"), ("CD", "CG")]
+    assert m.link("CG").points["G"] == (sympy.Rational(3, 2), 0)
+    assert m.outputs == (PointVelocity("CG", "G", ("x", "y")),)
+
+
+def test_paper_hybrid() -> None:
+    # Section 5: L is 18 x 24.
+    m = load("zlatanov-hybrid")
+    assert (m.N, m.n) == (18, 6)
+    assert [j.kind for j in m.joints[:4]] == [JointKind.R, JointKind.R, JointKind.R, JointKind.S]
+    (a,) = m.resolved.parameters
+    assert (a.name, a.low, a.high) == ("a", 2 / sympy.sqrt(3), 2)
+    assert [e.points for e in m.exclusions] == [("A", "A0"), ("B", "B0"), ("C", "C0")]
+    fixed = m.with_parameters(a="3/2").resolved
+    assert fixed.parameters == ()
+    assert fixed.links == load("zlatanov-hybrid-3-2").resolved.links
+
+
+def test_decimals_and_shorthand() -> None:
+    m = loads(FOURBAR, "four.toml")
+    assert m.name == "four"
+    assert m.link("BC").points == {"B": (0, 0), "C": (sympy.Rational(7, 2), 0)}
+    assert m.joint("C").at == ("C", "C")
+    assert m.outputs == (JointRate("D"),)
+
+
+def test_python_has_the_same_keys() -> None:
+    links = {"ground": {"points": {"A": [0, 0], "D": [4, 0]}}, "AB": 1, "BC": sympy.Rational(7, 2), "CD": 3.0}
+    m = define(
+        name="four", inputs=["A"], output={"rate": "D"}, links=links, joints=dict.fromkeys("ABCD", "R")
+    )
+    assert m == replace(loads(FOURBAR, "four.toml"), origin="")
+
+
+def test_triangle_by_sides() -> None:
+    # Innocenti, Parenti-Castelli's platform, placed by the law of cosines.
+    points = load("3rpr").link("platform").points
+    distance = {
+        pair: sum((x - y) ** 2 for x, y in zip(points[pair[0]], points[pair[1]], strict=True))
+        for pair in (("B1", "B2"), ("B2", "B3"), ("B3", "B1"))
+    }
+    assert [sympy.expand(d) for d in distance.values()] == [
+        sympy.Rational(s) ** 2 for s in ("17.04", "16.54", "20.84")
+    ]
+    assert points["B3"][1].is_positive
+
+
+def test_limits_and_exclusions() -> None:
+    more = """
+    [limits]
+    "angle(A)" = [-60, 60]
+    "B.x" = { min = 0 }
+    [exclusions]
+    "flat" = { zero = "B.y" }
+    """
+    m = loads(FOURBAR + more)
+    angle, coordinate = m.limits
+    # |A| <= 60 degrees exactly where cos(A) >= 1/2.
+    assert (angle.expression, angle.low, angle.high) == (sympy.Symbol("cos(A)"), sympy.Rational(1, 2), None)
+    assert (coordinate.expression, coordinate.low) == (sympy.Symbol("B.x"), 0)
+    assert m.exclusions[0].expression == sympy.Symbol("B.y")
+    assert loads(dumps(m)) == m
+
+
+def test_outputs_of_every_kind() -> None:
+    text = FOURBAR.replace('inputs = ["A"]', 'inputs = ["A", "B", "C"]').replace(
+        '{ rate = "D" }',
+        """[
+            { twist = "BC", at = "C", components = ["w"] },
+            { velocity = "B", components = ["y"] },
+            { rate = "D" },
+        ]""",
+    )
+    assert loads(text).outputs == (
+        Twist("BC", "C", ("w",)),
+        PointVelocity("AB", "B", ("y",)),
+        JointRate("D"),
+    )
+
+
+def test_circular_parameters() -> None:
+    with pytest.raises(MechanismError, match="circle"):
+        loads(FOURBAR + '[parameters]\na = "b"\nb = "a"\n')
+
+
+def test_parameter_that_is_missing_or_symbolic() -> None:
+    m = load("2r")
+    with pytest.raises(MechanismError, match="l1, l2"):
+        m.with_parameters(l3=1)
+    assert [p.name for p in m.with_parameters(l1=None).resolved.parameters] == ["l1"]
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("inputs = [", "no TOML"),
+        ("a = " + "[" * 5_000_000 + "]" * 5_000_000, "at most 1000000"),
+        ("a = " + "[" * 400_000, "nested too deep"),
+        ("a = " + "9" * 5000, "TOML"),
+        ("x = nan", "keys among"),
+        ("inputs = 3\nspace = 4\nmobility = true", "space"),
+        (FOURBAR.replace("AB = 1", "AB = nan"), "links.AB.length"),
+        (FOURBAR.replace("AB = 1", "AB = 0"), "a positive length"),
+        (FOURBAR.replace("AB = 1", 'AB = "1/"'), "column 3"),
+        (FOURBAR.replace("AB = 1", "AB = { lenght = 1 }"), "did you mean 'length'"),
+        (FOURBAR.replace("AB = 1", "crank = 1"), "two points"),
+        (FOURBAR.replace("[4, 0]", "[4, 0, 0]"), "2 coordinates"),
+        (FOURBAR.replace('B = "R"', 'B = "X"'), "R P H C U S E"),
+        (FOURBAR.replace('B = "R"', 'Q = "R"'), "two or more links"),
+        (FOURBAR.replace('{ rate = "D" }', '{ speed = "D" }'), "did you mean|one of"),
+        (FOURBAR + '[limits]\n"angle(A)" = [0, 400]', "full turn"),
+        (FOURBAR + '[limits]\n"cos(Q)" = [0, 1]', "Q"),
+        (FOURBAR + "[parameters]\na = {}", "no value and no range"),
+        (FOURBAR + "[dh]\nrows = []", "dh alone"),
+    ],
+)
+def test_refused(text: str, said: str) -> None:
+    with pytest.raises(MechanismError, match=said) as caught:
+        loads(text, "four.toml")
+    assert all(problem.file == "four.toml" for problem in caught.value.problems)
+    assert all(len(str(problem)) < 600 for problem in caught.value.problems)
+
+
+def test_all_problems_are_reported_at_once() -> None:
+    text = FOURBAR.replace("AB = 1", 'AB = "1/"').replace("CD = 3", 'CD = "z"')
+    with pytest.raises(MechanismError) as caught:
+        loads(text)
+    assert len(caught.value.problems) == 2
+
+
+def test_files(tmp_path: Path) -> None:
+    path = tmp_path / "four.toml"
+    path.write_text(FOURBAR, encoding="utf-8")
+    assert load(path).name == "four"
+    path.write_bytes(b"name = \xff")
+    with pytest.raises(MechanismError, match="UTF-8"):
+        load(path)
+    path.write_bytes(b"[" * 10_000_000)
+    with pytest.raises(MechanismError, match="10000000 bytes"):
+        load(path)
+    with pytest.raises(FileNotFoundError, match="zlatanov-2dof"):
+        load("no-such-mechanism")
+
+
+def test_starter_checks_and_its_comments_are_true() -> None:
+    text = starter("mine")
+    assert loads(text).name == "mine"
+    for line in text.splitlines():
+        assert len(line) <= 120
+    with pytest.raises(ValueError, match="expected letters"):
+        starter("../x")

@@ -1,0 +1,119 @@
+"""URDF arms against yourdfpy's own forward kinematics in floats."""
+
+import importlib.util
+import io
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+import sympy
+import yourdfpy
+
+from singsym.mechanism import JointKind, MechanismError, check
+from singsym.mechanism.urdf import from_urdf, rational_rotation
+
+_spec = importlib.util.spec_from_file_location("arms", Path(__file__).with_name("arms.py"))
+assert _spec is not None
+assert _spec.loader is not None
+arms = importlib.util.module_from_spec(_spec)
+_spec.loader.exec_module(arms)
+
+JOINTS = [
+    ("revolute", "0 0 0.089159", "0 0 0", "0 0 1", "-6.2831853 6.2831853"),
+    ("revolute", "0 0.13585 0", "0 1.570796325 0", "0 1 0", "-1.5 1.5"),
+    ("fixed", "0.1 0.2 0.3", "1.5708 0 -1.5708", "", ""),
+    ("prismatic", "0 -0.1197 0.425", "0.3 -0.7 1.1", "0 0 1", "-0.5 0.25"),
+    ("continuous", "0 0 0.39225", "0 1.570796325 0", "0.6 0.8 0", ""),
+    ("revolute", "0 0.093 0", "0.25 0 0", "1 1 1", "0.5 1.5"),
+    ("fixed", "0 0.0823 0", "0 0 1.570796325", "", ""),
+]
+
+
+def write(path: Path, joints: list[tuple[str, ...]], extra: str = "") -> Path:
+    links = "".join(f'<link name="link-{i}"/>' for i in range(len(joints) + 1))
+    body = ""
+    for i, (kind, xyz, rpy, axis, limit) in enumerate(joints):
+        low, high = limit.split() if limit else ("", "")
+        body += f'<joint name="joint-{i}" type="{kind}"><origin xyz="{xyz}" rpy="{rpy}"/>'
+        body += f'<parent link="link-{i}"/><child link="link-{i + 1}"/>'
+        body += f'<axis xyz="{axis}"/>' if axis else ""
+        body += f'<limit lower="{low}" upper="{high}" effort="1" velocity="1"/>' if limit else ""
+        body += "</joint>"
+    path.write_text(f'<?xml version="1.0"?><robot name="arm">{links}{body}{extra}</robot>', encoding="utf-8")
+    return path
+
+
+def test_forward_kinematics(tmp_path: Path) -> None:
+    path = write(tmp_path / "arm.urdf", JOINTS)
+    arm = from_urdf(path, components=["vx", "vy", "vz", "wx", "wy"])
+    assert [j.kind for j in arm.joints] == [JointKind.R, JointKind.R, JointKind.P, JointKind.R, JointKind.R]
+    assert check(arm) == ()
+    values = {j.name: v for j, v in zip(arm.joints, (0.3, -1.2, 0.2, 2.0, 1.0), strict=True)}
+    robot = yourdfpy.URDF.load(
+        io.BytesIO(path.read_bytes()), load_meshes=False, build_collision_scene_graph=False
+    )
+    robot.update_cfg({name.replace("_", "-"): v for name, v in values.items()})
+    expected = robot.get_transform("link-7", "link-0")
+    place, _ = arms.tool(arm, values)
+    assert np.allclose(place, expected[:3, 3], atol=2e-5)
+
+
+def test_dimensions_are_the_decimals_as_spelled(tmp_path: Path) -> None:
+    arm = from_urdf(write(tmp_path / "arm.urdf", JOINTS[:2]), components=["vx", "vy"])
+    assert arm.joint("joint_0").reference is None
+    assert arm.link("link_0").points["o_joint_0"] == (0, 0, sympy.Rational("0.089159"))
+    # 1.570796325 is a quarter turn: x of the child is -z of the parent.
+    assert arm.link("link_1").axes["z_joint_1"] == (0, 1, 0)
+    assert "quarter turns" in arm.description
+    every = from_urdf(write(tmp_path / "arm.urdf", JOINTS), components=["vx", "vy", "vz", "wx", "wy"])
+    values = [v for link in every.links for p in link.points.values() for v in p]
+    assert all(v.is_Rational for v in values)
+    assert "rational rotation" in every.description
+
+
+def test_limits(tmp_path: Path) -> None:
+    arm = from_urdf(write(tmp_path / "arm.urdf", JOINTS), components=["vx", "vy", "vz", "wx", "wy"])
+    # The first joint turns freely, the continuous one has no limits.
+    symmetric, slide, offset = arm.limits
+    assert symmetric.expression == sympy.Symbol("cos(joint_1)")
+    assert symmetric.low == sympy.Rational(str(round(math.cos(1.5), 6)))
+    assert (slide.low, slide.high) == (sympy.Rational(-1, 2), sympy.Rational(1, 4))
+    # From .5 to 1.5: both ends lie on the bound, the middle well inside.
+    for angle, inside in ((0.5, 0.0), (1.5, 0.0), (1.0, 0.1224), (0.4, -0.0525)):
+        put = {sympy.Symbol("cos(joint_5)"): math.cos(angle), sympy.Symbol("sin(joint_5)"): math.sin(angle)}
+        value = offset.expression.xreplace(put) - offset.low
+        assert float(value) == pytest.approx(inside, abs=1e-3)
+
+
+def test_refused(tmp_path: Path) -> None:
+    path = tmp_path / "arm.urdf"
+    with pytest.raises(FileNotFoundError):
+        from_urdf(path)
+    branch = (
+        '<joint name="b" type="fixed"><parent link="link-0"/><child link="side"/></joint><link name="side"/>'
+    )
+    with pytest.raises(MechanismError, match="2 last links"):
+        from_urdf(write(path, JOINTS[:2], branch))
+    arm = from_urdf(path, tip="link-2", components=["vx", "vz"])
+    assert "Left aside: the joints b" in arm.description
+    with pytest.raises(MechanismError, match="a link that a joint moves"):
+        from_urdf(path, tip="nothing")
+    with pytest.raises(MechanismError, match="2 names among"):
+        from_urdf(write(path, JOINTS[:2]))
+    with pytest.raises(MechanismError, match="floating"):
+        from_urdf(write(path, [("floating", "0 0 0", "0 0 0", "0 0 1", "")]))
+    path.write_text("no xml", encoding="utf-8")
+    with pytest.raises(MechanismError):
+        from_urdf(path)
+    with pytest.raises(MechanismError, match="a direction"):
+        from_urdf(write(path, [("continuous", "0 0 0", "0 0 0", "0 0 0", "")]))
+
+
+def test_rational_rotation_is_exact() -> None:
+    turn = rational_rotation(arms.turn(np.array([2 / 3, -1 / 3, 2 / 3]), 2.0).tolist())
+    assert turn * turn.T == sympy.eye(3)
+    assert turn.det() == 1
+    assert np.allclose(
+        np.array(turn.tolist(), dtype=float), arms.turn(np.array([2 / 3, -1 / 3, 2 / 3]), 2.0), atol=1e-5
+    )
