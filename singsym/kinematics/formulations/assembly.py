@@ -40,13 +40,18 @@ class Assembly:
         """The same values on the circles, in fewer terms."""
         return tuple(shortened(x, self.circles) for x in coordinates)
 
-    def close(self, joints: Iterable[Joint]) -> None:
-        """Add the constraint equations and, where they can be told, the values of these joints."""
+    def close(self, joints: Iterable[Joint], lengths: Mapping[str, str] | None = None) -> None:
+        """Add the constraint equations and, where they can be told, the values of these joints.
+
+        lengths: variables for the lengths of slides, by joint.
+        """
+        names = lengths or {}
         for joint in joints:
             first, second = self.bodies[joint.first], self.bodies[joint.second]
-            self.equations += closure.equations(joint, self.geometry, first, second)
+            length = self.algebra.ring.gen(names[joint.name]) if joint.name in names else None
+            self.equations += closure.equations(joint, self.geometry, first, second, length)
             if len(first.basis) == len(second.basis) == 3:
-                self.values |= closure.value(joint, self.geometry, first, second)
+                self.values |= closure.value(joint, self.geometry, first, second, length)
 
 
 def placement(assembly: Assembly, dimensions: Dimensions, formulation: str) -> Placement:

@@ -14,8 +14,13 @@ from singsym.mechanism.model import Joint, JointKind
 from singsym.polynomials import Polynomial
 
 
-def equations(joint: Joint, geometry: local.Geometry, first: Body, second: Body) -> list[Polynomial]:
-    """Polynomials that vanish exactly where the joint's constraint holds."""
+def equations(
+    joint: Joint, geometry: local.Geometry, first: Body, second: Body, length: Polynomial | None = None
+) -> list[Polynomial]:
+    """Polynomials that vanish exactly where the joint's constraint holds.
+
+    length: of a slide, as a variable; without it two equations of higher degree take its place.
+    """
     algebra, kind = first.algebra, joint.kind
     a, b = geometry.points(joint)
     gap = minus(second.point(b), first.point(a))
@@ -31,6 +36,8 @@ def equations(joint: Joint, geometry: local.Geometry, first: Body, second: Body)
         found += minus(second.direction(local.apply(back, n1)), first.direction(n1))
     if kind is JointKind.R:
         return found + list(gap)
+    if length is not None:
+        return found + [g - algebra.reduced(length * x) for g, x in zip(gap, first.direction(u), strict=True)]
     normals = (u,) if kind is JointKind.E else (n1, n2)
     return found + [algebra.dot(gap, first.direction(n)) for n in normals]
 
@@ -68,8 +75,10 @@ def screws(joint: Joint, geometry: local.Geometry, first: Body, second: Body) ->
     return {joint.name: turn}
 
 
-def value(joint: Joint, geometry: local.Geometry, first: Body, second: Body) -> dict[str, JointValue]:
-    """Column label -> value of an R, H, P or C joint, read off the two bodies."""
+def value(
+    joint: Joint, geometry: local.Geometry, first: Body, second: Body, length: Polynomial | None = None
+) -> dict[str, JointValue]:
+    """Column label -> value of an R, H, P or C joint, read off the two bodies or its length variable."""
     algebra, kind = first.algebra, joint.kind
     if kind not in (JointKind.R, JointKind.H, JointKind.P, JointKind.C):
         return {}
@@ -82,8 +91,9 @@ def value(joint: Joint, geometry: local.Geometry, first: Body, second: Body) -> 
         cosine, sine = (algebra.dot(first.direction(n), there) for n in (n1, n2))
         found.append(JointValue(cosine, sine, algebra.ring.one))
     if kind in (JointKind.P, JointKind.C):
-        gap = minus(second.point(b), first.point(a))
-        found.append(JointValue(length=algebra.dot(gap, first.direction(u))))
+        if length is None:
+            length = algebra.dot(minus(second.point(b), first.point(a)), first.direction(u))
+        found.append(JointValue(length=length))
     return dict(zip(joint.columns, found, strict=True))
 
 

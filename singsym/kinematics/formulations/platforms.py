@@ -58,9 +58,9 @@ def find_platforms(
         joints = [joint for joint in mechanism.joints if link.name in (joint.first, joint.second)]
         if len(ends) < len(joints) or local.is_collinear([hanger.inner for hanger in ends]):
             raise ValueError(
-                f"link {link.name!r} is reached through spherical joints only, but is not a platform on three "
-                "or more of them, a rod between two, nor half of a strut with a slide along the line of two: "
-                "use the natural formulation, or attach the link by another joint"
+                f"link {link.name!r} is reached through spherical joints only, but is not a platform on "
+                "three or more of them, a rod between two, nor half of a strut with a slide along the "
+                "line of two: use the natural formulation, or attach the link by another joint"
             )
         output = next(iter(output_points(mechanism, link.name)), None)
         platforms.append(_platform(link.name, ends, placed, quaternion and output is not None))

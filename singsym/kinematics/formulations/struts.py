@@ -137,9 +137,7 @@ def hang_struts(assembly: Assembly, struts: Sequence[Strut]) -> None:
     for strut in struts:
         for hanger in strut.ends:
             if hanger.other in loose:
-                raise ValueError(
-                    f"joint {hanger.joint.name!r} joins two struts: neither has its own place"
-                )
+                raise ValueError(f"joint {hanger.joint.name!r} joins two struts: neither has its own place")
         axes = geometry.axes(strut.slide) if strut.slide else ()
         parts, found, direction = place_strut(algebra, strut, axes, assembly.bodies)
         assembly.bodies |= parts
