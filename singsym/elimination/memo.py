@@ -5,6 +5,7 @@ Source: content-addressed caches; the keys are values, never identities.
 
 from __future__ import annotations
 
+import os
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
 from threading import Lock
@@ -17,6 +18,16 @@ Value = TypeVar("Value")
 _LIMIT = 20_000
 _known: OrderedDict[Hashable, Any] = OrderedDict()
 _lock = Lock()
+
+
+def _after_fork() -> None:
+    """In a forked child: the lock may be held by a thread that is not there."""
+    global _lock
+    _lock = Lock()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_after_fork)
 
 
 def remember(question: str, key: Hashable, compute: Callable[[], Value]) -> Value:

@@ -24,7 +24,8 @@ def test_a_part_ends_with_the_whole() -> None:
 
 def test_without_limits() -> None:
     budget = Budget()
-    assert budget.remaining() is None and budget.part().remaining() is None
+    assert budget.remaining() is None
+    assert budget.part().remaining() is None
     budget.check()
 
 
@@ -32,7 +33,8 @@ def test_the_enclosing_budget_holds() -> None:
     with Budget(5) as outer:
         assert current() is outer
         with Budget(1) as inner:
-            assert current() is inner and current(outer) is outer
+            assert current() is inner
+            assert current(outer) is outer
         assert current() is outer
     assert current().remaining() is None
 
@@ -53,8 +55,10 @@ def test_pickled_budgets_keep_what_is_left() -> None:
 def test_verdicts() -> None:
     yes = Verdict.yes("modular", engine="msolve", reason="1 is in the ideal")
     assert str(yes) == "yes (modular by msolve): 1 is in the ideal"
-    assert (~yes).answer is Answer.NO and (~Verdict.undecided("x")).is_undecided
-    assert weakest() == "proven" and weakest("modular", "certified", "proven") == "modular"
+    assert (~yes).answer is Answer.NO
+    assert (~Verdict.undecided("x")).is_undecided
+    assert weakest() == "proven"
+    assert weakest("modular", "certified", "proven") == "modular"
     with pytest.raises(TypeError):
         bool(yes)
 

@@ -50,14 +50,22 @@ def test_normal_form_is_exact() -> None:
 
 def test_unit_and_zero_ideals() -> None:
     unit, zero = ideal(R.one), ideal()
-    assert unit.is_unit() and unit.dimension == -1 and unit.degree == 0
-    assert unit.vector_space_dimension == 0 and not unit.is_zero_dimensional
-    assert unit.minimal_primes() == () and unit.radical().is_unit()
-    assert zero.dimension == 3 and zero.minimal_primes() == (zero,)
-    assert zero.contains(R.zero) and not zero.contains(x)
-    assert zero.saturate(x).equals(zero) and unit.saturate(x).is_unit()
+    assert unit.is_unit()
+    assert unit.dimension == -1
+    assert unit.degree == 0
+    assert unit.vector_space_dimension == 0
+    assert not unit.is_zero_dimensional
+    assert unit.minimal_primes() == ()
+    assert unit.radical().is_unit()
+    assert zero.dimension == 3
+    assert zero.minimal_primes() == (zero,)
+    assert zero.contains(R.zero)
+    assert not zero.contains(x)
+    assert zero.saturate(x).equals(zero)
+    assert unit.saturate(x).is_unit()
     assert zero.saturate(R.zero).is_unit()
-    assert (unit * zero).equals(zero) and (unit + zero).equals(unit)
+    assert (unit * zero).equals(zero)
+    assert (unit + zero).equals(unit)
     assert ideal(R.constant(3), x).equals(unit)
     with pytest.raises(ValueError, match="infinitely many"):
         _ = zero.vector_space_dimension
@@ -65,7 +73,8 @@ def test_unit_and_zero_ideals() -> None:
 
 def test_non_reduced_and_embedded() -> None:
     double = ideal((x - y) ** 2)
-    assert double.radical_contains(x - y) and not double.contains(x - y)
+    assert double.radical_contains(x - y)
+    assert not double.contains(x - y)
     embedded = ideal(x**2, x * y)
     assert embedded.saturate(y).equals(ideal(x))
     assert embedded.quotient(x).equals(ideal(x, y))
@@ -112,8 +121,10 @@ def test_minimal_primes_without_an_engine() -> None:
 
 def test_frozen_hashable_picklable() -> None:
     i = ideal(x**2 - y, z)
-    assert pickle.loads(pickle.dumps(i)) == i and hash(i) == hash(pickle.loads(pickle.dumps(i)))
-    assert i != ideal(z, x**2 - y) and i.equals(ideal(z, x**2 - y + z))
+    assert pickle.loads(pickle.dumps(i)) == i
+    assert hash(i) == hash(pickle.loads(pickle.dumps(i)))
+    assert i != ideal(z, x**2 - y)
+    assert i.equals(ideal(z, x**2 - y + z))
     with pytest.raises(AttributeError):
         i.ring = R  # type: ignore[misc]
 
@@ -134,9 +145,9 @@ def test_no_budget_left() -> None:
 
 
 small = st.integers(-2, 2)
-polynomials = st.lists(st.tuples(small, st.sampled_from([R.one, x, y, z, x * y, y * z, x**2])), max_size=3).map(
-    lambda terms: sum((c * m for c, m in terms), start=R.zero)
-)
+polynomials = st.lists(
+    st.tuples(small, st.sampled_from([R.one, x, y, z, x * y, y * z, x**2])), max_size=3
+).map(lambda terms: sum((c * m for c, m in terms), start=R.zero))
 ideals = st.lists(polynomials, max_size=2).map(lambda generators: Ideal(R, generators))
 
 
@@ -144,13 +155,18 @@ ideals = st.lists(polynomials, max_size=2).map(lambda generators: Ideal(R, gener
 @given(ideals, ideals, polynomials)
 def test_laws(i: Ideal, j: Ideal, g: Polynomial) -> None:
     meet = i.intersect(j)
-    assert i.contains(meet) and j.contains(meet) and meet.contains(i * j)
-    assert (i + j).contains(i) and (i + j).contains(j)
+    assert i.contains(meet)
+    assert j.contains(meet)
+    assert meet.contains(i * j)
+    assert (i + j).contains(i)
+    assert (i + j).contains(j)
     colon, saturation = i.quotient(g), i.saturate(g)
-    assert colon.contains(i) and saturation.contains(colon)
+    assert colon.contains(i)
+    assert saturation.contains(colon)
     assert i.contains(Ideal(R, (g,)) * colon)
     assert saturation.is_unit() == i.radical_contains(g)
     assert meet.dimension == max(i.dimension, j.dimension)
     rest = i.eliminate({"x"})
-    assert i.contains(rest) and all(p.degree("x") <= 0 for p in rest.generators)
+    assert i.contains(rest)
+    assert all(p.degree("x") <= 0 for p in rest.generators)
     memo.forget()

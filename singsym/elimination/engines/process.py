@@ -13,6 +13,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 import weakref
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -144,7 +145,9 @@ class Child:
         try:
             while self._wait(budget, closing=True):
                 pass
-            status = self.process.wait(timeout=5)
+            while (status := self.process.poll()) is None:
+                budget.check(f"waiting for {self.engine}")
+                time.sleep(0.001)
         except BaseException:
             self.kill()
             raise

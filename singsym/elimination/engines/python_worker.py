@@ -23,6 +23,10 @@ class PythonWorker:
 
     def __init__(self, library: str) -> None:
         self.library = library
+        self.start_afresh()
+
+    def start_afresh(self) -> None:
+        """Know of no process."""
         self._child: Child | None = None
         self._lock = threading.Lock()
 

