@@ -32,6 +32,7 @@ _KINDS = {
     Space.SPHERICAL: (JointKind.R,),
     Space.SPATIAL: tuple(JointKind),
 }
+MAX_JOINTS = 500
 _PINNED = (JointKind.R, JointKind.U, JointKind.S)
 
 Finding = tuple[str, str, str, str]
@@ -77,8 +78,8 @@ def _names(mechanism: Mechanism) -> Iterator[Finding]:
         advice = 'name the fixed link "ground", or say ground = "NAME"'
         expected = f"a link among {_listed(groups['links'])}"
         yield "ground", f"no link {mechanism.ground!r}", expected, advice
-    if not mechanism.joints:
-        yield "joints", "no joints", "at least one", ""
+    if not 0 < len(mechanism.joints) <= MAX_JOINTS:
+        yield "joints", f"{len(mechanism.joints)} joints", f"from 1 to {MAX_JOINTS}", ""
 
 
 def _joints(mechanism: Mechanism) -> Iterator[Finding]:
@@ -311,20 +312,12 @@ def _exclusions(mechanism: Mechanism) -> Iterator[Finding]:
 
 def _loops(mechanism: Mechanism) -> Iterator[Finding]:
     """A closed polygon of links needs its longest side no longer than the others together."""
-    graph = networkx.Graph()
-    for joint in mechanism.joints:
-        if joint.kind in _PINNED:
-            graph.add_edge(("link", joint.first), ("joint", joint.name))
-            graph.add_edge(("link", joint.second), ("joint", joint.name))
-    for cycle in networkx.minimum_cycle_basis(graph):
-        cycle_nodes = set(cycle)
-        sides: dict[str, sympy.Expr] = {}
-        for kind, name in cycle:
-            if kind == "link":
-                ends = [mechanism.joint(n) for k, n in graph.neighbors((kind, name)) if (k, n) in cycle_nodes]
-                points = [mechanism.link(name).points[j.at[0 if j.first == name else 1]] for j in ends[:2]]
-                difference = tuple(x - y for x, y in zip(*points, strict=True))
-                sides[name] = sympy.sqrt(sympy.expand(_dot(difference, difference)))
+    for polygon in _polygons(mechanism):
+        sides = {}
+        for name, ends in polygon.items():
+            points = mechanism.link(name).points
+            difference = tuple(x - y for x, y in zip(*(points[end] for end in ends), strict=True))
+            sides[name] = sympy.sqrt(sympy.expand(_dot(difference, difference)))
         if any(side.free_symbols for side in sides.values()):
             continue
         longest = max(sides, key=lambda name: sympy.N(sides[name]))
@@ -333,6 +326,38 @@ def _loops(mechanism: Mechanism) -> Iterator[Finding]:
             found = ", ".join(f"{name} {_short(side)}" for name, side in sorted(sides.items()))
             expected = "lengths of which none exceeds the sum of the others"
             yield "links", f"the loop {found}", expected, f"{longest} is too long for the loop to close"
+
+
+def _polygons(mechanism: Mechanism) -> list[dict[str, tuple[str, str]]]:
+    """The shortest loop of R, U, S joints through each joint: link -> the two points where it is joined."""
+    graph = networkx.Graph()
+    for joint in mechanism.joints:
+        if joint.kind in _PINNED:
+            graph.add_edge(("link", joint.first), ("joint", joint.name))
+            graph.add_edge(("link", joint.second), ("joint", joint.name))
+    polygons: dict[frozenset[str], dict[str, tuple[str, str]]] = {}
+    joints = {joint.name: joint for joint in mechanism.joints}
+    for joint in mechanism.joints:
+        node = ("joint", joint.name)
+        if node not in graph:
+            continue
+        rest = networkx.restricted_view(graph, [node], [])
+        try:
+            path = networkx.shortest_path(rest, ("link", joint.first), ("link", joint.second))
+        except networkx.NetworkXNoPath:
+            continue
+        cycle = [joint.name, *(name for kind, name in path if kind == "joint"), joint.name]
+        names = [name for kind, name in path if kind == "link"]
+        polygons[frozenset(cycle)] = {
+            name: (_end(joints[cycle[i]], name), _end(joints[cycle[i + 1]], name))
+            for i, name in enumerate(names)
+        }
+    return list(polygons.values())
+
+
+def _end(joint: Joint, link: str) -> str:
+    """The joint's point in this link."""
+    return joint.at[0] if joint.first == link else joint.at[1]
 
 
 def _short(value: sympy.Expr) -> str:

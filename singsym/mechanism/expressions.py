@@ -25,7 +25,7 @@ import sympy
 from singsym.mechanism.problems import MechanismError, Problem, shorten
 
 MAX_LENGTH = 2000
-MAX_DEPTH = 50
+MAX_DEPTH = 30
 MAX_EXPONENT = 64
 MAX_BITS = 4096
 FUNCTIONS = ("sqrt", "sin", "cos")
@@ -115,6 +115,24 @@ def is_angle(value: sympy.Expr) -> bool:
     return bool(ratio.is_Rational) and ratio.q <= 360
 
 
+def oversize(value: sympy.Expr) -> tuple[str, str] | None:
+    """What is too large in an expression for exact work, and the bound; None where nothing is.
+
+    >>> oversize(sympy.Integer(2) ** 5000)
+    ('a number too long to use', 'at most 4096 binary digits')
+    """
+    if _depth(value) > 2 * MAX_DEPTH:
+        return "nesting too deep", f"at most {2 * MAX_DEPTH} levels"
+    rationals = value.atoms(sympy.Rational)
+    if any(max(abs(int(r.p)).bit_length(), int(r.q).bit_length()) > MAX_BITS for r in rationals):
+        return "a number too long to use", f"at most {MAX_BITS} binary digits"
+    if _degree(value) > MAX_EXPONENT:
+        return f"a power of degree {_degree(value)}", f"at most {MAX_EXPONENT}"
+    if value.count_ops() > MAX_LENGTH:
+        return f"an expression of {value.count_ops()} operations", f"at most {MAX_LENGTH}"
+    return None
+
+
 class _Parser:
     """Recursive descent over the tokens of one expression."""
 
@@ -176,9 +194,8 @@ class _Parser:
         """The value, if it is real and of sensible size."""
         if value.has(sympy.zoo, sympy.nan, sympy.oo) or (value.is_number and value.is_real is False):
             raise self.fail(column, f"the value {value}", "a real number")
-        rationals = value.atoms(sympy.Rational)
-        if any(max(abs(int(r.p)).bit_length(), int(r.q).bit_length()) > MAX_BITS for r in rationals):
-            raise self.fail(column, "a number too long to use", f"at most {MAX_BITS} binary digits")
+        if fault := oversize(value):
+            raise self.fail(column, *fault)
         return value
 
     def sum(self) -> sympy.Expr:
@@ -227,10 +244,7 @@ class _Parser:
             raise self.fail(place, "this exponent", f"a whole number up to {MAX_EXPONENT}", advice)
         if base.is_zero and exponent < 0:
             raise self.fail(column, "a negative power of zero", "a base other than zero")
-        value = self.checked(base**exponent, column)
-        if _degree(value) > MAX_EXPONENT:
-            raise self.fail(column, f"a power of degree {_degree(value)}", f"at most {MAX_EXPONENT}")
-        return value
+        return self.checked(base**exponent, column)
 
     def atom(self) -> sympy.Expr:
         column = self.column
@@ -303,6 +317,10 @@ class _Parser:
             self.next += 1
             raise self.fail(self.column, repr(self.peek), f"a joint freedom that is {kind}: {wanted}")
         return None
+
+
+def _depth(value: sympy.Basic) -> int:
+    return 1 + max((_depth(a) for a in value.args), default=0)
 
 
 def _degree(value: sympy.Expr) -> int:

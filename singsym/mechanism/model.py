@@ -9,12 +9,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property
+from graphlib import CycleError, TopologicalSorter
 from typing import Any
 
 import networkx
 import sympy
 
-from singsym.mechanism.expressions import expression
+from singsym.mechanism.expressions import expression, oversize
 from singsym.mechanism.problems import MechanismError, Problem
 
 Vector = tuple[sympy.Expr, ...]
@@ -263,17 +264,22 @@ class Mechanism:
         Raises `MechanismError` where they are defined by each other in a circle.
         """
         names = {p.name for p in self.parameters}
-        values = {
+        given = {
             sympy.Symbol(p.name): expression(p.value, names, place=f"parameters.{p.name}", file=self.origin)
             for p in self.parameters
             if p.value is not None
         }
-        for _ in values:
-            values = {name: value.xreplace(values) for name, value in values.items()}
-        circular = sorted(str(name) for name, value in values.items() if value.free_symbols & values.keys())
-        if circular:
+        order = TopologicalSorter({name: value.free_symbols & given.keys() for name, value in given.items()})
+        values: dict[sympy.Symbol, sympy.Expr] = {}
+        try:
+            for name in order.static_order():
+                values[name] = given[name].xreplace(values)
+                if fault := oversize(values[name]):
+                    raise MechanismError([Problem(f"parameters.{name}", *fault, file=self.origin)])
+        except CycleError as error:
+            found = ", ".join(sorted({str(name) for name in error.args[1]}))
             expected = "values that do not depend on each other in a circle"
-            raise MechanismError([Problem("parameters", ", ".join(circular), expected, file=self.origin)])
+            raise MechanismError([Problem("parameters", found, expected, file=self.origin)]) from None
         return values
 
     @cached_property

@@ -136,6 +136,14 @@ def test_circular_parameters() -> None:
         loads(FOURBAR + '[parameters]\na = "b"\nb = "a"\n')
 
 
+@pytest.mark.parametrize("rule", ["p{0}*p{0} + p{0} + 1", "sqrt(p{0} + 1)"])
+@pytest.mark.parametrize("start", ["3", "{ above = 0 }"])
+def test_parameters_that_grow_without_bound(start: str, rule: str) -> None:
+    lines = "".join(f'p{i} = "{rule.format(i - 1)}"\n' for i in range(1, 200))
+    with pytest.raises(MechanismError, match="at most"):
+        loads(FOURBAR + f"[parameters]\np0 = {start}\n{lines}")
+
+
 def test_parameter_that_is_missing_or_symbolic() -> None:
     m = load("2r")
     with pytest.raises(MechanismError, match="l1, l2"):
