@@ -7,7 +7,7 @@ and the order of work measured on linkages: factor, branch, substitute, and exte
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from singsym.elimination.budget import Budget, current
 from singsym.elimination.ideal import Ideal
@@ -44,6 +44,11 @@ class Component:
     def generators(self) -> tuple[Polynomial, ...]:
         return self.ideal.generators
 
+    @property
+    def is_pure(self) -> bool:
+        """Whether all components over C are known to have the dimension."""
+        return self.prime or self.cohen_macaulay
+
     def __repr__(self) -> str:
         shown = ", ".join(map(str, self.generators[:3])) or "0"
         more = f", ... ({len(self.generators)} generators)" if len(self.generators) > 3 else ""
@@ -79,7 +84,7 @@ def decompose(
 
     >>> x, y = Ring(("x", "y")).gens
     >>> decompose([x**2 - y**2, x * y - y], [y], ring=x.ring)
-    (Component(x - 1, y - 1 = 0, dimension 0), Component(x - 1, y + 1 = 0, dimension 0))
+    (Component(y + 1, x - 1 = 0, dimension 0), Component(y - 1, x - 1 = 0, dimension 0))
     """
     forbidden = irreducible_factors(ring.convert(p) for p in nonzero)
     if forbidden is None:
@@ -181,8 +186,8 @@ def _by_levels(
         for piece in pieces:
             base = tuple(inner.convert(p) for p in piece.generators)
             fresh = len(level.names) - len(piece.ideal.ring.names)
-            expected = piece.dimension + fresh - len(added) if piece.cohen_macaulay else None
-            found += _refine(inner, (*base, *added), known, expected)
+            least = piece.dimension + fresh - len(added) if piece.is_pure else 0
+            found += _refine(_System(inner, (*base, *added), known, least, piece.cohen_macaulay))
         found = [_in_ring(piece, inner) for piece in found]
         pieces = list(prune(c for c in found if keep is None or keep(c)))
     return pieces
@@ -191,90 +196,97 @@ def _by_levels(
 # -- one ideal -----------------------------------------------------------------------------------------
 
 
-def _refine(
-    ring: Ring, equations: tuple[Polynomial, ...], nonzero: frozenset[Polynomial], expected: int | None
-) -> tuple[Component, ...]:
-    """Split one ideal by factors of its equations, of its basis, and of eliminants, until it is prime.
+@dataclass(frozen=True)
+class _System:
+    """Equations to split, and what is known of their zeros outside those of `nonzero`.
 
-    expected: the dimension at which the ideal is Cohen-Macaulay, as cut from such a one by single equations.
+    least: no component has a smaller dimension (Krull: each equation takes off one at most); pieces below it
+    lie in others and are dropped.  macaulay: if `least` is the dimension, the ideal is Cohen-Macaulay.
     """
+
+    ring: Ring
+    equations: tuple[Polynomial, ...]
+    nonzero: frozenset[Polynomial]
+    least: int
+    macaulay: bool = False
+
+    def plus(self, p: Polynomial, nonzero: Iterable[Polynomial] = ()) -> _System:
+        return _System(self.ring, (*self.equations, p), self.nonzero | frozenset(nonzero), self.least)
+
+    def replaced(self, equations: Iterable[Polynomial], *, same_ideal: bool) -> _System:
+        return replace(self, equations=tuple(equations), macaulay=self.macaulay and same_ideal)
+
+
+def _refine(system: _System) -> tuple[Component, ...]:
+    """Split an ideal by factors of its equations, of its basis, and of eliminants, until it is prime."""
     current().check("decomposition")
-    key = (ring, frozenset(equations), nonzero, expected)
-    return remember("decompose", key, lambda: _refined(ring, equations, nonzero, expected))
+    key = replace(system, equations=tuple(dict.fromkeys(system.equations)))
+    return remember("decompose", key, lambda: _refined(system))
 
 
-def _refined(
-    ring: Ring, equations: tuple[Polynomial, ...], nonzero: frozenset[Polynomial], expected: int | None
-) -> tuple[Component, ...]:
-    factored = factor_equations(equations, nonzero)
+def _refined(system: _System) -> tuple[Component, ...]:
+    factored = factor_equations(system.equations, system.nonzero)
     if factored is None:
         return ()
-    if factored and len(factored[-1]) > 1:
-        return _by_factors(ring, equations, factored[-1], nonzero)
-    single = tuple(f[0] for f in factored)
-    if any(f not in single and -f not in single for f in (p.primitive() for p in equations if p)):
-        expected = None  # a factor was dropped: the ideal has changed
+    # many reducible equations come from a basis: take a new one before branching on the next
+    if 0 < sum(len(f) > 1 for f in factored) < 3:
+        return _by_factors(system, factored[-1])
+    single = tuple(_product(f, system.ring) for f in factored)
+    unchanged = {p.primitive() for p in system.equations if p} <= set(single)
+    system = system.replaced(single, same_ideal=unchanged)
     substitution = linear_substitution(single)
-    if substitution is not None:
-        smaller = ring.with_names(n for n in ring.names if n != substitution.name)
-        remaining = irreducible_factors(substitution.apply(nonzero))
-        if remaining is None:
-            return ()
-        reduced = tuple(smaller.convert(p) for p in substitution.apply(single))
-        pieces = _refine(smaller, reduced, frozenset(smaller.convert(p) for p in remaining), expected)
-        return tuple(_lifted(piece, substitution.equation) for piece in pieces)
-    return _by_basis(ring, single, nonzero, expected)
+    if substitution is None:
+        return _by_basis(system)
+    smaller = system.ring.with_names(n for n in system.ring.names if n != substitution.name)
+    nonzero = irreducible_factors(substitution.apply(system.nonzero))
+    if nonzero is None:
+        return ()
+    reduced = tuple(smaller.convert(p) for p in substitution.apply(single))
+    forbidden = frozenset(smaller.convert(p) for p in nonzero)
+    pieces = _refine(_System(smaller, reduced, forbidden, system.least, system.macaulay))
+    return tuple(_lifted(piece, substitution.equation) for piece in pieces)
 
 
-def _by_factors(
-    ring: Ring, equations: Iterable[Polynomial], factors: Sequence[Polynomial], nonzero: frozenset[Polynomial]
-) -> tuple[Component, ...]:
-    found: list[Component] = []
-    for i, f in enumerate(factors):
-        found += _refine(ring, (*equations, f), nonzero | frozenset(factors[:i]), None)
-    return prune(_in_ring(piece, ring) for piece in found)
+def _by_factors(system: _System, factors: Sequence[Polynomial]) -> tuple[Component, ...]:
+    pieces = [p for i, f in enumerate(factors) for p in _refine(system.plus(f, factors[:i]))]
+    return prune(_in_ring(piece, system.ring) for piece in pieces)
 
 
-def _by_basis(
-    ring: Ring, equations: tuple[Polynomial, ...], nonzero: frozenset[Polynomial], expected: int | None
-) -> tuple[Component, ...]:
-    ideal = Ideal(ring, equations)
+def _by_basis(system: _System) -> tuple[Component, ...]:
+    ideal = Ideal(system.ring, system.equations)
     basis = ideal.groebner_basis()
     if basis and basis[0].is_constant:
         return ()
-    if any(ideal.contains(p) for p in nonzero):
+    dimension = len(independent_variables(leading_exponents(basis), len(system.ring.names)))
+    if dimension < system.least or any(ideal.contains(p) for p in system.nonzero):
         return ()
-    factored = factor_equations(basis, nonzero)
+    factored = factor_equations(basis, system.nonzero)
     if factored is None:
         return ()
-    single = tuple(f[0] for f in factored if len(f) == 1)
-    if len(single) < len(factored):
-        return _by_factors(ring, basis, factored[-1], nonzero)
-    if any(p.primitive() not in single for p in basis):
-        return _refine(ring, (*basis, *single), nonzero, None)
+    system = system.replaced(basis, same_ideal=True)
+    if len(factored[-1]) > 1:
+        return _by_factors(system, factored[-1])
+    single = {f[0] for f in factored}
+    if not single.issuperset(basis):
+        return _refine(system.replaced((*basis, *single), same_ideal=False))
     if linear_substitution(basis) is not None:
-        return _refine(ring, basis, nonzero, expected)
-    return _by_eliminant(Ideal(ring, basis, ideal.certainty), nonzero, expected)
+        return _refine(system)
+    return _by_eliminant(system, Ideal(system.ring, basis, ideal.certainty), dimension)
 
 
-def _by_eliminant(
-    ideal: Ideal, nonzero: frozenset[Polynomial], expected: int | None
-) -> tuple[Component, ...]:
-    ring = ideal.ring
-    basis = ideal.generators
-    dimension = len(independent_variables(leading_exponents(basis), len(ring.names)))
-    proven = ideal.certainty == "proven"
-    if len(basis) <= 1:
+def _by_eliminant(system: _System, ideal: Ideal, dimension: int) -> tuple[Component, ...]:
+    ring, proven = system.ring, ideal.certainty == "proven"
+    if len(ideal.generators) == 1:
         return (Component(ideal, proven, dimension, True),)
-    unmixed = expected == dimension
+    unmixed = system.macaulay and system.least == dimension
     found = analyse(ideal, unmixed=unmixed)
     if found.factors and not any(ideal.contains(f) for f in found.factors):
-        pieces = [p for f in found.factors for p in _refine(ring, (*basis, f), nonzero, None)]
-        return prune(_in_ring(piece, ring) for piece in pieces)
+        pieces = [_in_ring(p, ring) for f in found.factors for p in _refine(system.plus(f))]
+        return prune(pieces)
     if found.complete:
         return (Component(ideal, proven, dimension, True),)
     if found.cut is not None:
-        rest = [_in_ring(piece, ring) for piece in _refine(ring, (*basis, found.cut), nonzero, None)]
         curve = ideal.saturate(found.cut)
-        return prune((Component(curve, curve.certainty == "proven", dimension, True), *rest))
+        beside = [_in_ring(p, ring) for p in _refine(system.plus(found.cut))]
+        return prune((Component(curve, curve.certainty == "proven", dimension, True), *beside))
     return (Component(ideal, False, dimension, unmixed),)

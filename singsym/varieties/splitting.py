@@ -114,7 +114,7 @@ def levels(equations: Sequence[Polynomial]) -> tuple[Level, ...]:
     for i, (variables, p) in enumerate(best):
         pending.append(p)
         excess = len(variables) - (i + 1)
-        if i + 1 == len(best) or (len(best[i + 1][0]) > len(variables) and excess < _next_minimum(best, i)):
+        if i + 1 == len(best) or (len(best[i + 1][0]) > len(variables) and excess <= _next_minimum(best, i)):
             cut.append(Level(tuple(n for n in order if n in variables), tuple(pending)))
             pending = []
     return tuple(cut)
