@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
+from math import prod
 from typing import Any
 
 from flint import fmpq, fmpq_mat, nmod_mat
@@ -149,34 +150,59 @@ class RankLocus:
         return any(all(p.is_zero for p in equations) for equations in self.alternatives)
 
 
-def full_rank_locus(block: PolynomialMatrix, certifier: Certifier) -> tuple[Polynomial, ...] | None:
-    """Polynomials whose common zeros are where a block loses rank; None where it cannot.
+Minors = tuple[tuple[Polynomial, ...], ...]
 
-    Each is the product of the distinct factors, not proved nonzero, of a maximal minor.
+
+def minor_factors(block: PolynomialMatrix, certifier: Certifier) -> Minors | None:
+    """For each maximal minor its distinct factors that are not proved nonzero; None where one has none left.
+
+    Minors that vanish on the configuration space are left out, and those with all the factors of another.
     """
-    found: dict[Polynomial, None] = {}
+    found: dict[frozenset[Polynomial], tuple[Polynomial, ...]] = {}
     for _, _, minor in maximal_minors(block):
         parts = factored((minor,), certifier)
         if parts.vanishes:
             continue
         if not parts.factors:
             return None
-        product = minor.ring.one
-        for factor in parts.polynomials:
-            product = product * factor
-        found[product] = None
-    if not found:
-        return (block.ring.zero,)
-    return tuple(_minimal(sorted(found, key=lambda p: (p.total_degree, len(p), str(p)))))
+        found[frozenset(parts.polynomials)] = parts.polynomials
+    kept = [f for key, f in found.items() if not any(other < key for other in found)]
+    return tuple(sorted(kept, key=lambda f: (sum(len(p) for p in f), str(f))))
 
 
-def _minimal(polynomials: Sequence[Polynomial]) -> list[Polynomial]:
-    """Without multiples of others."""
-    kept: list[Polynomial] = []
-    for p in polynomials:
-        if not any(q.divides(p) for q in kept):
-            kept.append(p)
-    return kept
+def full_rank_locus(block: PolynomialMatrix, certifier: Certifier) -> tuple[Polynomial, ...] | None:
+    """Polynomials whose common zeros are where a block loses rank; None where it cannot.
+
+    Each is the product of the distinct factors, not proved nonzero, of a maximal minor.
+    """
+    minors = minor_factors(block, certifier)
+    if minors is None:
+        return None
+    products = [prod(factors, start=block.ring.one) for factors in minors]
+    return tuple(products) or (block.ring.zero,)
+
+
+MANY_ALTERNATIVES = 40
+
+
+def alternatives(minors: Minors) -> Minors | None:
+    """The common zeros of products as a union of common zeros of factors, one of each product, minimal.
+
+    None where there are too many.
+
+    >>> from singsym.polynomials import Ring
+    >>> x, y, z = Ring(("x", "y", "z")).gens
+    >>> alternatives(((x, y), (y, z)))
+    ((y,), (x, z))
+    """
+    choices: set[frozenset[Polynomial]] = {frozenset()}
+    for factors in minors:
+        wider = {c if c & set(factors) else c | {f} for c in choices for f in factors}
+        choices = {c for c in wider if not any(other < c for other in wider)}
+        if len(choices) > MANY_ALTERNATIVES:
+            return None
+    ordered = [tuple(sorted(c, key=lambda p: (len(p), str(p)))) for c in choices]
+    return tuple(sorted(ordered, key=lambda c: (len(c), sum(len(p) for p in c), str(c))))
 
 
 def rank_locus(matrix: PolynomialMatrix, rank: int, certifier: Certifier) -> RankLocus | None:

@@ -1,0 +1,100 @@
+"""The conditions of the 2-DOF linkage against section 3.3 of Zlatanov, Fenton, Benhabib (1998)."""
+
+import importlib.util
+import sys
+from pathlib import Path
+
+import pytest
+
+from singsym.elimination.conditions import LABELS, Conditions
+from singsym.elimination.geometry import PointNames
+from singsym.kinematics.nonzero import Certifier
+from singsym.kinematics.placement import ConfigurationSpace
+from singsym.kinematics.reduction import reduce
+from singsym.polynomials import Ring
+
+_spec = importlib.util.spec_from_file_location(
+    "two_dof", Path(__file__).parents[1] / "kinematics" / "two_dof.py"
+)
+assert _spec is not None
+assert _spec.loader is not None
+linkage = importlib.util.module_from_spec(_spec)
+sys.modules["two_dof"] = linkage
+_spec.loader.exec_module(linkage)
+collinear, two_dof = linkage.collinear, linkage.two_dof
+
+
+@pytest.fixture(scope="module")
+def conditions() -> Conditions:
+    equation = two_dof()
+    return Conditions(equation, reduce(equation))
+
+
+@pytest.mark.parametrize(
+    ("label", "triples"), [("vii", ["BCD", "CFG"]), ("viii", ["ABC", "CDG", "EFG"]), ("4", ["BCD", "CFG"])]
+)
+def test_determinants_are_products_of_collinearities(
+    conditions: Conditions, label: str, triples: list[str]
+) -> None:
+    """(vii) iff [BCD][CGF] = 0, (viii) iff [ABC][CDG][EFG] = 0."""
+    factors = conditions[label].factors
+    assert {f.polynomial for f in factors} == {collinear(*t).primitive() for t in triples}
+    assert {f.words for f in factors} == {f"{t[0]}, {t[1]}, {t[2]} collinear" for t in triples}
+    assert all(f.multiplicity == 1 for f in factors)
+
+
+def test_redundant_passive_motion_needs_two_collinear_triples(conditions: Conditions) -> None:
+    (both,) = conditions["iii"].alternatives or ()
+    assert {f.words for f in both} == {"B, C, D collinear", "C, D, G collinear"}
+
+
+def test_increased_mobility(conditions: Conditions) -> None:
+    """From (6): both loops' remaining rows, [ABC] [BCD] and [CGE] [CDG] [CFG], become dependent."""
+    found = {frozenset(f.words[:7] for f in a) for a in conditions["vi"].alternatives or ()}
+    assert found == {
+        frozenset({"A, B, C", "B, C, D"}),
+        frozenset({"C, E, G", "C, D, G", "C, F, G"}),
+        frozenset({"A, B, C", "C, E, G", "C, F, G"}),
+    }
+
+
+def test_labels_statements_and_comparisons(conditions: Conditions) -> None:
+    assert tuple(c.label for c in conditions) == LABELS
+    assert conditions["i"].statement == "rank L_O < rank L_p + 2"
+    assert conditions["iv"].statement == "rank L_I < rank L"
+    assert conditions["vi"].statement == "rank L < 8"
+    assert conditions["iii"].statement == "rank L_p < 6"
+    with pytest.raises(KeyError, match="the paper has 4, 5, i"):
+        conditions["ix"]
+
+
+def test_latex(conditions: Conditions) -> None:
+    text = conditions["vii"].latex()
+    assert r"\det[S_{B}\, S_{C}\, S_{D}] = " in text
+    assert "x_{B} y_{C}" in text
+    assert text.count("&") == text.count("\\\\") + 1
+
+
+def test_a_polynomial_that_is_no_determinant_of_points_gets_no_name() -> None:
+    ring = Ring(("x", "y"))
+    x, y = ring.gens
+    points = {"A": (ring.zero, ring.zero), "B": (ring.one, ring.zero), "C": (x, y)}
+    names = PointNames(Certifier(ConfigurationSpace(ring, (), points=points)))
+    assert names.recognise(x**2 + y**2 - 1) is None
+    assert names.recognise(x) is None
+    found = names.recognise(y)
+    assert found is not None
+    assert found.words == "A, B, C collinear"
+
+
+def test_four_points_in_a_plane_and_a_link_across_an_axis() -> None:
+    ring = Ring(("x", "y", "z"))
+    x, y, z = ring.gens
+    o, one = ring.zero, ring.one
+    points = {"A": (o, o, o), "B": (one, o, o), "C": (o, one, o), "D": (x, y, z)}
+    axes = {"u": (one, one, o)}
+    names = PointNames(Certifier(ConfigurationSpace(ring, (), points=points, directions=axes)))
+    for polynomial, words in [(z, "A, B, C, D coplanar"), (x + y, "AD perpendicular to axis u")]:
+        found = names.recognise(polynomial)
+        assert found is not None
+        assert found.words == words
