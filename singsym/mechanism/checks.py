@@ -56,7 +56,8 @@ def check(mechanism: Mechanism) -> tuple[Problem, ...]:
 
 
 def _listed(names: Iterable[str]) -> str:
-    return ", ".join(names) or "none"
+    every = list(names)
+    return (", ".join(every) if len(every) <= 24 else f"{', '.join(every[:24])}, ...") or "none"
 
 
 def _suggest(name: str, names: Iterable[str]) -> str:

@@ -93,3 +93,27 @@ def test_bad_rows() -> None:
         define(space="spatial", dh={"rows": []})
     with pytest.raises(MechanismError, match='"R" or "P"'):
         define(space="spatial", dh={"rows": [{"joint": "S"}]})
+
+
+def test_bennett_closes() -> None:
+    # Bennett: tan(A/2) tan(B/2) = sin((beta + alpha)/2) / sin((beta - alpha)/2), C = -A, D = -B.
+    m = load("bennett").resolved
+    alpha, beta = math.radians(40), math.radians(75)
+    first = 0.7
+    ratio = math.sin((beta + alpha) / 2) / math.sin((beta - alpha) / 2)
+    second = 2 * math.atan(ratio / math.tan(first / 2))
+    product = np.eye(4)
+    for name, value in zip("ABCD", (first, second, -first, -second), strict=True):
+        joint = m.joint(name)
+        ends = []
+        for link, point, axis, x in zip(
+            (joint.first, joint.second), joint.at, joint.axes, joint.reference, strict=True
+        ):
+            body = m.link(link)
+            z, u = arms.vector(body.axes[axis]), arms.vector(body.axes[x])
+            end = np.eye(4)
+            end[:3, :3] = np.column_stack([u, np.cross(z, u), z])
+            end[:3, 3] = arms.vector(body.points[point])
+            ends.append(end)
+        product = product @ ends[0] @ step("z", value) @ np.linalg.inv(ends[1])
+    assert np.allclose(product, np.eye(4))

@@ -3,6 +3,7 @@
 import importlib.util
 import io
 import math
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -117,3 +118,9 @@ def test_rational_rotation_is_exact() -> None:
     assert np.allclose(
         np.array(turn.tolist(), dtype=float), arms.turn(np.array([2 / 3, -1 / 3, 2 / 3]), 2.0), atol=1e-5
     )
+
+
+def test_without_yourdfpy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "yourdfpy", None)
+    with pytest.raises(ImportError, match=r"singsym\[urdf\]"):
+        from_urdf(tmp_path / "arm.urdf")
