@@ -19,6 +19,7 @@ from singsym.varieties.real.curve_critical import as_balls
 from singsym.varieties.real.curve_paths import Chain, contained, prove_chains
 from singsym.varieties.real.curve_singular import Star
 from singsym.varieties.real.curve_tracking import Marks, kernels, track
+from singsym.varieties.real.curve_tubes import frames
 from singsym.varieties.real.intervals import at_precision, evaluate
 from singsym.varieties.real.points import RealPoint
 from singsym.varieties.real.zerodim import real_points
@@ -59,7 +60,7 @@ def _value(objective: Polynomial, point: RealPoint, bits: int) -> arb:
 
 
 def _gap(objective: Polynomial, point: RealPoint, critical: Sequence[RealPoint]) -> tuple[Fraction, Fraction]:
-    """A third of the distance to the next critical levels below and above (or of the level, at the outermost)."""
+    """Most of the distance to the next critical levels below and above, at most 1."""
     bits = 128
     own = _value(objective, point, bits)
     gaps = [Fraction(1), Fraction(1)]
@@ -67,7 +68,7 @@ def _gap(objective: Polynomial, point: RealPoint, critical: Sequence[RealPoint])
         level = _value(objective, other, bits)
         if not level.overlaps(own):
             side = int(level > own)
-            gaps[side] = min(gaps[side], Fraction(float(abs(level - own).lower())) / 3)
+            gaps[side] = min(gaps[side], Fraction(float(abs(level - own).lower())) * 9 / 10)
         elif not other.coincides(point):
             raise Undecided("two critical points of a distance at the same level: draw another seed")
     return gaps[0], gaps[1]
@@ -78,8 +79,8 @@ def _levels(
 ) -> tuple[Fraction, Fraction]:
     """Rationals with small denominators just below and above the level of the point."""
     middle = Fraction(float(_value(objective, point, 128).mid()))
-    low = (middle - below).limit_denominator(max(64, int(8 / below)))
-    high = (middle + above).limit_denominator(max(64, int(8 / above)))
+    low = (middle - below).limit_denominator(max(64, int(64 / below)))
+    high = (middle + above).limit_denominator(max(64, int(64 / above)))
     own = _value(objective, point, 128)
     if not (own > arb(low.numerator) / low.denominator and own < arb(high.numerator) / high.denominator):
         raise Undecided("the critical levels of a distance are too close to be separated")
@@ -157,7 +158,7 @@ def _count(
             ends = Balls(balls.mid[[arc.start, arc.end]], balls.rad[[arc.start, arc.end]])
             if isinstance(proven, str) or not contained(proven, ends)[0].all():
                 continue
-            if _goes_up(objective, proven[0], balls.mid[[arc.start, arc.end]]):
+            if _goes_up(system, objective, proven[0], ends):
                 crossed.update((arc.start, arc.end))
         if len(crossed) != 2 * passing:
             return None
@@ -166,17 +167,29 @@ def _count(
     return Star(point, kind, Balls(balls.mid[kept], balls.rad[kept]), -inward[kept], True)
 
 
-def _goes_up(objective: Polynomial, chain: Chain, ends: Array) -> bool:
+def _goes_up(system: System, objective: Polynomial, chain: Chain, ends: Balls) -> bool:
     """Whether the objective surely increases along a proven chain at both its ends.
 
-    The tangent differs from the step of the tube by at most its `slope`.
+    Lemma: the kernel of the Jacobian is within `tilt` of the computed tangent, and the arc of a tube moves along its step.
     """
     if chain.tubes is None:
         return False
-    gradient = System(objective.ring, (objective,)).jacobian(ends)[:, 0, :]
-    tubes = chain.tubes.take(np.array([0, len(chain.tubes) - 1]))
-    size, length = np.linalg.norm(gradient, axis=1), np.linalg.norm(tubes.step, axis=1)
-    return bool(((gradient * tubes.step).sum(axis=1) > size * (1.01 * tubes.slope + 1e-8 * length)).all())
+    step = chain.tubes.step[[0, -1]]
+    along = kernels(system, ends.mid)
+    along = along * np.sign((along * step).sum(axis=1))[:, None]
+    frame = frames(along)
+    precondition = Balls.exact(np.linalg.pinv(system.jacobian(ends.mid) @ frame))
+    slopes = precondition.matmul(system.jacobian_balls(ends))
+    defect = (slopes.matmul(Balls.exact(frame)) - Balls.exact(np.eye(frame.shape[2])[None])).magnitude()
+    moved = slopes.matmul(Balls.exact(along[:, :, None])).magnitude().max(axis=(1, 2), initial=0.0)
+    tilt = 4 * len(system.ring.names) * moved
+    if not (defect.sum(axis=2).max(initial=0.0) < 0.5 and tilt.max() < 1e-7):
+        return False
+    forward = (along * step).sum(axis=1) > 1e-5 * np.linalg.norm(step, axis=1)
+    gradient = System(objective.ring, (objective,)).jacobian_balls(ends)
+    rise = gradient.matmul(Balls.exact(along[:, :, None]))
+    margin = tilt[:, None, None] * gradient.magnitude().sum(axis=2, keepdims=True)
+    return bool(forward.all() and (rise.mid > (rise.rad + margin) * (1 + 1e-9)).all())
 
 
 def _inward(system: System, objective: Polynomial, points: Array, lower: int) -> Array:

@@ -59,9 +59,11 @@ def sample_points(equations: Sequence[Polynomial], seed: int, budget: Budget) ->
     return None
 
 
-def distance_samples(equations: Sequence[Polynomial], rng: random.Random, budget: Budget) -> Samples:
-    """Samples by the distance from a random point; raises `Undecided` where they are not isolated."""
-    objective = distance_from(equations[0].ring, rng)
+def distance_samples(
+    equations: Sequence[Polynomial], near: Sequence[float], rng: random.Random, budget: Budget
+) -> Samples:
+    """Samples by the distance from a random point near another; raises `Undecided` where they are not isolated."""
+    objective = distance_from(equations[0].ring, rng, near)
     points = _critical_points(equations, gradient_rows(equations), objective, rng, budget)
     if points is None:
         raise Undecided("the critical points of a distance are not isolated")
@@ -77,15 +79,15 @@ def _with_ends(
     return Samples(objective, points, real_points((*equations, objective - level), budget), level)
 
 
-def distance_from(ring: Ring, rng: random.Random) -> Polynomial:
-    """The squared distance from a random rational point, the ring's constants left out."""
+def distance_from(ring: Ring, rng: random.Random, near: Sequence[float] = ()) -> Polynomial:
+    """The squared distance from a random rational point (near one, if given), the ring's constants left out."""
     constants = {c.name for c in ring.constants}
-    terms = (
-        (ring.gen(name) - Fraction(rng.randint(-40, 40), 32)) ** 2
-        for name in ring.names
-        if name not in constants
-    )
-    return sum(terms, start=ring.zero)
+    total = ring.zero
+    for k, name in enumerate(ring.names):
+        if name not in constants:
+            center = Fraction(rng.randint(-40, 40), 32) + (round(near[k]) if near else 0)
+            total = total + (ring.gen(name) - center) ** 2
+    return total
 
 
 def gradient_rows(equations: Sequence[Polynomial]) -> tuple[Row, ...]:

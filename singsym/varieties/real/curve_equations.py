@@ -70,7 +70,7 @@ def candidates(ring: Ring, generators: tuple[Polynomial, ...], budget: Budget) -
 
 def _refuse(dimension: int, constants: int) -> None:
     what = f"dimension {dimension}" + (" with its constants as variables" if constants else "")
-    raise ValueError(f"a curve (dimension 1) is expected, the system has {what}: add or remove equations")
+    raise ValueError(f"a curve (dimension 1) is expected, the system has complex {what}: add or remove equations")
 
 
 def _isolated(

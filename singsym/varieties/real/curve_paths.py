@@ -17,6 +17,7 @@ from singsym.varieties.real.curve_tracking import Marks, Track, newton, track
 from singsym.varieties.real.curve_tubes import Tubes, joined, location, prove_tubes
 
 _HALVINGS = 14
+_SEGMENTS = 40000
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,10 +87,10 @@ def prove_chains(system: System, found: list[Chain], budget: Budget) -> list[Cha
             return [
                 Chain(p, c.marks, c.closed, t) for p, c, t in zip(polylines, found, known, strict=True)
             ]
-        if round_ == _HALVINGS - 1:
+        if round_ == _HALVINGS - 1 or count > _SEGMENTS:
             break
         polylines, known = _halve(system, polylines, known, bad)
-    return f"{count} segments of the curve could not be proven after {_HALVINGS} halvings"
+    return f"{count} segments of the curve could not be proven after {round_} halvings"
 
 
 def _prove_round(system: System, polylines: list[Array], known: list[Tubes | None]) -> list[Tubes | None]:

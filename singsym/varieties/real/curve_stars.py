@@ -47,9 +47,10 @@ def find_stars(
     if not difficult:
         return stars, samples
     reason = Undecided("no distance with isolated critical points was found")
-    for attempt in range(_SEEDS):
+    rng = random.Random(seed + 1)
+    for _ in range(_SEEDS):
         try:
-            samples = distance_samples(equations, random.Random(1000 * attempt + seed + 1), budget)
+            samples = distance_samples(equations, difficult[0].floats, rng, budget)
             critical = samples.points
             found = [
                 branch_star(system, equations, samples.objective, p, critical, budget) for p in difficult

@@ -39,6 +39,7 @@ class Track:
     points: Array
 
 
+@np.errstate(all="ignore")
 def newton(system: System, points: Array, normals: Array, steps: int = _NEWTON) -> tuple[Array, Array]:
     """Points moved onto the curve within the hyperplanes normal to `normals`, and the sizes of the last moves."""
     moved = np.zeros(len(points))
@@ -69,6 +70,7 @@ def kernels(system: System, points: Array) -> Array:
     return np.asarray(np.linalg.svd(system.jacobian(points))[2][:, -1, :])
 
 
+@np.errstate(all="ignore")
 def track(
     system: System, marks: Marks, lanes: np.ndarray, *, bend: float = 0.3, steps: int = 6000
 ) -> list[Track]:

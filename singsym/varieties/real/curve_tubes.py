@@ -13,7 +13,7 @@ import numpy as np
 from singsym.varieties.real.curve_arithmetic import EPSILON, TINY, Array, Balls, System
 
 #: how far a tube goes on beyond both ends of its segment, in lengths of the segment
-MARGIN = 1e-3
+MARGIN = 1e-2
 _ORTHOGONAL = 1e-12
 
 
@@ -62,8 +62,9 @@ class Tubes:
         return result
 
 
+@np.errstate(all="ignore")
 def prove_tubes(system: System, start: Array, end: Array) -> Tubes:
-    """Tubes around the segments from `start` to `end` (B, n), each marked whether it is proven."""
+    """Tubes around the segments from `start` to `end` (B, n), each marked whether it is proven (nan proves nothing)."""
     n = start.shape[1]
     step, center = end - start, (start + end) / 2
     length = np.linalg.norm(step, axis=1)
@@ -109,6 +110,7 @@ def joined(before: Tubes, after: Tubes) -> np.ndarray:
     return np.asarray(near & forward & same & before.proven & after.proven)
 
 
+@np.errstate(all="ignore")
 def location(tubes: Tubes, points: Balls) -> tuple[np.ndarray, np.ndarray]:
     """For each ball (G, n; `rad` a 2-norm bound in every entry) and tube: surely inside, surely outside."""
     offset = points.mid[:, None, :] - tubes.center[None]
@@ -155,7 +157,7 @@ def _inverses(matrices: Array) -> Array:
 def _end_error(system: System, precondition: Balls, points: Array, size: Array, safe: Array) -> Array:
     """How far the arc can be from a point at an end: |Y f| / (1 - contraction), as a 2-norm."""
     n = points.shape[1]
-    rounding = 8 * EPSILON * size
+    rounding = 2 * EPSILON * size
     ball = Balls(points, np.broadcast_to(rounding[:, None], points.shape))
     residual = precondition.matmul(system.map.balls(ball).reshape(len(points), -1, 1)).magnitude()
     return 1.01 * np.sqrt(n) * residual.max(axis=(1, 2), initial=0.0) / safe + 2 * np.sqrt(n) * rounding
