@@ -25,6 +25,8 @@ class Cancelled(Undecided):
 class Budget:
     """So many seconds from now, and so much memory for each helper process; `None` is without limit.
 
+    Memory is watched on Linux; without a limit a helper ends at 70 % of the machine's.
+
     As a context manager it is the budget of everything inside that is not given another one.
 
     >>> Budget(60).part(seconds=5).remaining() <= 5

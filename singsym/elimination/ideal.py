@@ -232,7 +232,8 @@ class Ideal:
         """The number of complex zeros with multiplicity; raises `ValueError` where they are not finite."""
         if self.dimension > 0:
             raise ValueError(f"an ideal of dimension {self.dimension} has infinitely many zeros")
-        return self.degree if self.dimension == 0 else 0
+        basis, _ = self._core()
+        return monomials.degree(basis.leading_monomials(), len(self.ring.names))
 
     # -- algebra ---------------------------------------------------------------------------------
 

@@ -7,6 +7,8 @@ from fractions import Fraction
 import pytest
 import sympy
 from flint import fmpz
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from singsym.elimination import engines
 from singsym.elimination.engines.text import read, used_variables, write
@@ -184,3 +186,21 @@ def test_singular_decomposes_what_factoring_does() -> None:
     assert len(pieces) >= 4
     assert eliminated == (x**3 - y**2,)
     assert Ideal(R, saturated).equals(Ideal(R, (x**2 - 2, y)))
+
+
+small = st.integers(-3, 3)
+monomials = [R.one, x, y, z, x * y, y * z, x**2, z**2 * x]
+polynomials = st.lists(st.tuples(small, st.sampled_from(monomials)), min_size=1, max_size=4).map(
+    lambda terms: sum((c * m for c, m in terms), start=R.zero)
+)
+
+
+@settings(max_examples=15, deadline=None)
+@given(st.lists(polynomials, min_size=1, max_size=4))
+def test_random_systems_agree(generators: list[Polynomial]) -> None:
+    answers = []
+    for engine in PRESENT:
+        with engines.use(engine):
+            ideal = Ideal(R, generators)
+            answers.append((ideal.groebner_basis(), ideal.dimension, ideal.radical_contains(x)))
+    assert len(set(answers)) == 1

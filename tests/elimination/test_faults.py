@@ -211,6 +211,19 @@ def test_a_component_left_out_is_noticed(tmp_path: Path, monkeypatch: pytest.Mon
         ideal.minimal_primes()
 
 
+@pytest.mark.parametrize("program", ["import sys; sys.exit(1)", "print('no')"])
+def test_broken_engines_leave_the_time_to_flint(
+    program: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, katsura
+) -> None:
+    """FLINT has a moment at first, then the others, which fail, then FLINT has the rest."""
+    monkeypatch.setenv("SINGSYM_SINGULAR", script(tmp_path, program))
+    monkeypatch.setenv("SINGSYM_MSOLVE", script(tmp_path, program))
+    monkeypatch.setitem(registry._PATIENCE, "flint", 0.01)
+    ideal = Ideal(*katsura(6))
+    assert ideal.vector_space_dimension == 64
+    assert (ideal.certainty, ideal.engine) == ("proven", "flint")
+
+
 # -- pipes, time, memory ---------------------------------------------------------------------------
 
 DEAF = {

@@ -15,7 +15,7 @@ from contextvars import ContextVar
 from dataclasses import dataclass, replace
 
 from singsym.elimination import progress
-from singsym.elimination.budget import Budget, BudgetExceeded, current
+from singsym.elimination.budget import Budget, BudgetExceeded, Undecided, current
 from singsym.elimination.engines import checks
 from singsym.elimination.engines.base import (
     Engine,
@@ -41,6 +41,8 @@ _ENGINES: dict[str, Engine] = {e.name: e for e in (flint, msolve, singular, symp
 _DEFAULT = ("flint", "msolve", "singular")
 # seconds after which the next engine is asked, when there is a next one
 _PATIENCE = {"flint": 1.5, "msolve": 300.0, "singular": 300.0, "sympy": 300.0}
+# the same for the last engine, when the caller set no limit
+_LAST_PATIENCE, _DECOMPOSITION_PATIENCE = 3600.0, 120.0
 _CHECK_SECONDS = 20.0
 _PROOF_SECONDS = 5.0
 
@@ -91,17 +93,40 @@ def solve(task: Task, budget: Budget | None = None) -> EngineAnswer:
         raise EngineUnavailable(
             f"{', '.join(allowed())} cannot do {task.kind!r} here; other engines: {HOW_TO_GET}"
         )
-    failures = []
-    for position, engine in enumerate(candidates):
-        last = position == len(candidates) - 1
-        patience = None if last else min(_PATIENCE[engine.name], (budget.remaining() or 1e9) / 2)
-        try:
-            return _checked(task, _run(engine, task, budget.part(patience)), budget)
-        except (EngineFailure, BudgetExceeded) as failure:
-            budget.check(task.kind)
-            failures.append(str(failure))
-            log.debug("%s", failure)
-    raise EngineFailure(", ".join(e.name for e in candidates), "; ".join(failures))
+    failures: list[Undecided] = []
+    for engine in candidates:
+        patience = _patience(task, engine, engine is candidates[-1], budget.remaining())
+        if (answer := _attempt(engine, task, patience, budget, failures)) is not None:
+            return answer
+    # engines that broke down give FLINT back the time that it was refused before
+    broken = any(isinstance(failure, EngineFailure) for failure in failures)
+    if broken and flint in candidates[:-1]:
+        answer = _attempt(flint, task, None if budget.deadline else _LAST_PATIENCE, budget, failures)
+        if answer is not None:
+            return answer
+    raise EngineFailure(", ".join(e.name for e in candidates), "; ".join(map(str, failures)))
+
+
+def _attempt(
+    engine: Engine, task: Task, patience: float | None, budget: Budget, failures: list[Undecided]
+) -> EngineAnswer | None:
+    """The checked answer; `None`, with the failure noted, where there is none within so many seconds."""
+    try:
+        return _checked(task, _run(engine, task, budget.part(patience)), budget)
+    except (EngineFailure, BudgetExceeded) as failure:
+        budget.check(task.kind)
+        failures.append(failure)
+        log.debug("%s", failure)
+        return None
+
+
+def _patience(task: Task, engine: Engine, last: bool, left: float | None) -> float | None:
+    """Seconds for this engine: all that is left for the last one, but never without end outside Python."""
+    if not last:
+        return min(_PATIENCE[engine.name], float("inf") if left is None else left / 2)
+    if left is not None or engine.name in ("flint", "sympy"):
+        return None
+    return _LAST_PATIENCE if task.kind == "groebner" else _DECOMPOSITION_PATIENCE
 
 
 def _run(engine: Engine, task: Task, budget: Budget) -> EngineAnswer:
