@@ -73,6 +73,7 @@ def prove_tubes(system: System, start: Array, end: Array) -> Tubes:
     precondition = Balls.exact(_inverses(jacobian @ frame))
     exact_frame, exact_step = Balls.exact(frame), Balls.exact(step[:, :, None])
     half = 0.5 + MARGIN
+    at_jacobian = precondition.matmul(system.jacobian_balls(Balls.exact(center)))
     at_center = precondition.matmul(
         system.map.balls(Balls.exact(center)).reshape(len(start), -1, 1)
     ).magnitude()
@@ -80,7 +81,7 @@ def prove_tubes(system: System, start: Array, end: Array) -> Tubes:
     radius = np.zeros(len(start))
     for _ in range(2):
         reach = (spread + np.abs(frame).sum(axis=2) * radius[:, None]) * (1 + 1e-12) + TINY
-        slopes = precondition.matmul(system.jacobian_balls(Balls(center, reach)))
+        slopes = _slopes(system, precondition, at_jacobian, Balls(center, reach), step, frame, radius)
         along = slopes.matmul(exact_step).magnitude()
         defect = (slopes.matmul(exact_frame) - Balls.exact(np.eye(n - 1)[None])).magnitude()
         contraction = defect.sum(axis=2).max(axis=1, initial=0.0) * (1 + n * EPSILON)
@@ -142,6 +143,23 @@ def _orthogonality(step: Array, frame: Array, length: Array) -> Array:
     basis = np.concatenate([step[:, :, None] / np.maximum(length, TINY)[:, None, None], frame], axis=2)
     gram = Balls.exact(np.swapaxes(basis, 1, 2)).matmul(Balls.exact(basis)) - Balls.exact(np.eye(n)[None])
     return np.asarray(gram.magnitude().sum(axis=2).max(axis=1) * (1 + n * EPSILON) + 4 * EPSILON)
+
+
+def _slopes(
+    system: System,
+    precondition: Balls,
+    at_center: Balls,
+    box: Balls,
+    step: Array,
+    frame: Array,
+    radius: Array,
+) -> Balls:
+    """Y J over boxes in mean value form: Y J(center) + Y H(box) (s step + frame y), H the second derivatives."""
+    count, n = step.shape
+    second = precondition.matmul(system.hessian_balls(box)).reshape(count, n - 1, n, n)
+    basis = np.concatenate([step[:, :, None] * (0.5 + MARGIN), frame * radius[:, None, None]], axis=2)
+    change = second.matmul(Balls.exact(basis[:, None])).magnitude().sum(axis=3)
+    return Balls(at_center.mid, (at_center.rad + change) * (1 + 4 * n * EPSILON) + TINY)
 
 
 def _inverses(matrices: Array) -> Array:
