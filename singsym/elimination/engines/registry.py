@@ -167,15 +167,14 @@ def _checked(task: Task, answer: EngineAnswer, budget: Budget) -> EngineAnswer:
 
 def _proven_unit(task: Task, answer: EngineAnswer, budget: Budget) -> EngineAnswer:
     """The unit ideal once more by an engine that computes over Q, since msolve's word rests on primes."""
-    for engine in (singular, flint):
-        if has(engine.name):
-            try:
-                exact = engine.run(task, budget.part(_PROOF_SECONDS))
-            except (EngineFailure, BudgetExceeded) as failure:
-                log.debug("no proof: %s", failure)
-                continue
-            if exact.ideals == answer.ideals:
-                return exact
+    engine: Engine = singular if has(singular.name) else flint
+    if has(engine.name):
+        try:
+            exact = engine.run(task, budget.part(_PROOF_SECONDS))
+        except (EngineFailure, BudgetExceeded) as failure:
+            log.debug("no proof: %s", failure)
+        else:
+            return exact if exact.ideals == answer.ideals else answer
     return answer
 
 
