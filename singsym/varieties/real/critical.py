@@ -49,8 +49,9 @@ def component_samples(
 ) -> tuple[RealPoint, ...]:
     """The same for one piece of V(equations), without what other pieces of that set have as well.
 
-    The piece must be known to have one dimension; or the equations to be as many as its codimension: by Krull's
-    height theorem V(equations) then has no smaller irreducible component, and lower parts belong to other pieces.
+    The piece must be known to have one dimension; or the equations to be as many as its codimension: by
+    Krull's height theorem V(equations) then has no smaller irreducible component, and what is lower in this
+    piece belongs to other ones.
     """
     budget = current(budget)
     budget.check("real points on every component")
@@ -156,7 +157,7 @@ def _critical_points(
         centre = [ring.constant(random.randint(-40, 40)) / random.randint(7, 13) for _ in ring.names]
         rows = [*jacobian(local, ring.names), [x - a for x, a in zip(ring.gens, centre, strict=True)]]
         matrix = PolynomialMatrix.of(ring, rows)
-        conditions = [m for _, _, m in minors(matrix, len(local) + 1)]
+        conditions = [component.ideal.reduce(m) for _, _, m in minors(matrix, len(local) + 1)]
         if singular.dimension <= 0:
             system = Ideal(ring, (*component.generators, *conditions))
             if system.dimension <= 0:

@@ -177,6 +177,12 @@ def _by_samples(
     for p in points:
         if system.admits(p):
             return Verdict.no(witness=Witness(p))
+    if (
+        points
+        and _sides_are_constant(component, system, budget)
+        and not any(_inside(system, p) for p in points)
+    ):
+        return Verdict.yes(reason="an inequality fails on every connected component, which it does not cross")
     # equations as many as the codimension prove that all pieces have the same dimension: keep these, then
     complete = len(equations) == len(ring.names) - component.dimension
     lifted = _lifted(replace(system, equations=tuple(equations)) if complete else system)
@@ -188,6 +194,23 @@ def _by_samples(
     point = found[0]
     numerators = tuple(point.numerators[point.ring.index(n)] for n in ring.names)
     return Verdict.no(witness=Witness(replace(point, ring=ring, numerators=numerators)))
+
+
+def _inside(system: RealSystem, point: RealPoint) -> bool:
+    return all(point.sign(p) > 0 for p in (*system.positive, *system.nonnegative))
+
+
+def _sides_are_constant(component: Component, system: RealSystem, budget: Budget) -> bool:
+    """Whether no inequality becomes an equality on the real piece: signs are constant on components then."""
+    for p in (*system.positive, *system.nonnegative):
+        border = RealSystem(system.ring, (*component.generators, p))
+        try:
+            if not _decided(border, budget.part(_SEARCH_SECONDS), 0, 5).is_yes:
+                return False
+        except Undecided:
+            budget.check("real points where an inequality is an equality")
+            return False
+    return True
 
 
 def _lifted(system: RealSystem) -> RealSystem:
