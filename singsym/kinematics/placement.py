@@ -46,13 +46,15 @@ class ConfigurationSpace:
 class JointValue:
     """A joint's value as polynomials: (numerator of cosine, of sine, common denominator), or a length.
 
-    For an angle `cosine/scale`, `sine/scale` with `scale` positive on the feasible set; for a slide `length`.
+    For an angle `cosine/scale`, `sine/scale` with `scale` positive on the feasible set; for a slide `length`,
+    or the `square` of a length that is positive.
     """
 
     cosine: Polynomial | None = None
     sine: Polynomial | None = None
     scale: Polynomial | None = None
     length: Polynomial | None = None
+    square: Polynomial | None = None
 
 
 @dataclass(frozen=True)

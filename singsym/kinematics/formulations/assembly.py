@@ -8,8 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
-from singsym.kinematics.dimensions import Dimensions
-
+from singsym.kinematics.dimensions import Sized
 from singsym.kinematics.formulations import closure, local
 from singsym.kinematics.formulations.frames import Algebra, Body, Unplaced, shortened
 from singsym.kinematics.placement import ConfigurationSpace, Coordinates, JointValue, Placement
@@ -22,8 +21,8 @@ class Assembly:
     """Bodies and equations as a formulation finds them.
 
     scaled: screws that only the formulation can tell, up to a nonzero factor.
-    circles: c^2 + s^2 - 1 by which screws and equations may be shortened; none for open chains, whose
-        determinants factor as they stand and no longer after c^2 = 1 - s^2 has been used in places.
+    circles: c^2 + s^2 - 1 by which closure equations are shortened.  Screws are not: determinants factor
+        as they stand, with units c^2 + s^2, and no longer after c^2 = 1 - s^2 has been used in some entries.
     """
 
     mechanism: Mechanism
@@ -35,10 +34,6 @@ class Assembly:
     scaled: dict[str, Coordinates] = field(default_factory=dict)
     idle_spins: list[tuple[str, Coordinates]] = field(default_factory=list)
     circles: tuple[Polynomial, ...] = ()
-
-    def short(self, coordinates: Iterable[Polynomial]) -> Coordinates:
-        """The same values on the circles, in fewer terms."""
-        return tuple(shortened(x, self.circles) for x in coordinates)
 
     def close(self, joints: Iterable[Joint], lengths: Mapping[str, str] | None = None) -> None:
         """Add the constraint equations and, where they can be told, the values of these joints.
@@ -54,7 +49,7 @@ class Assembly:
                 self.values |= closure.value(joint, self.geometry, first, second, length)
 
 
-def placement(assembly: Assembly, dimensions: Dimensions, formulation: str) -> Placement:
+def placement(assembly: Assembly, sized: Sized, formulation: str) -> Placement:
     """The Placement of what a formulation has assembled."""
     mechanism, geometry, bodies = assembly.mechanism, assembly.geometry, assembly.bodies
     screws: dict[str, Coordinates] = {}
@@ -63,21 +58,21 @@ def placement(assembly: Assembly, dimensions: Dimensions, formulation: str) -> P
             screws[joint.name] = assembly.scaled[joint.name]
         else:
             screws |= closure.screws(joint, geometry, bodies[joint.first], bodies[joint.second])
-    link_points = {key: assembly.short(p) for key, p in _link_points(mechanism, geometry, bodies).items()}
+    link_points = _link_points(mechanism, geometry, bodies)
     fixed = set(assembly.circles)
     closing = (e if e in fixed else shortened(e, assembly.circles) for e in assembly.equations)
     space = ConfigurationSpace(
         ring=assembly.algebra.ring,
-        equations=_distinct((*assembly.algebra.ring.relations, *closing)),
-        positive=dimensions.positive,
-        parameters=dimensions.parameters,
+        equations=_distinct((*sized.relations, *closing)),
+        positive=sized.positive,
+        parameters=sized.parameters,
         points=_space_points(mechanism, link_points),
         directions=_directions(mechanism, geometry, bodies),
         formulation=formulation,
     )
     return Placement(
         space,
-        {label: _in_space(mechanism.space, assembly.short(screw)) for label, screw in screws.items()},
+        {label: _in_space(mechanism.space, screw) for label, screw in screws.items()},
         link_points,
         tuple(assembly.idle_spins),
         assembly.values,

@@ -45,7 +45,8 @@ def equations(
 def screws(joint: Joint, geometry: local.Geometry, first: Body, second: Body) -> dict[str, Coordinates]:
     """Column label -> screw (w, v at the origin) of `second` relative to `first`.
 
-    E: translations along two directions of `first`, then the rotation about the normal through the
+    E: translations along two directions of `first` (coordinate axes of its frame where it has one in the
+    plane), then the rotation about the normal through the
     point of `second`.
     """
     algebra, kind = first.algebra, joint.kind
@@ -70,7 +71,7 @@ def screws(joint: Joint, geometry: local.Geometry, first: Body, second: Body) ->
     if kind is JointKind.C:
         return dict(zip(joint.columns, (turn, slide), strict=True))
     if kind is JointKind.H and joint.pitch is not None:
-        pitch = algebra.number(geometry.number(joint.pitch))
+        pitch = algebra.number(joint.pitch)
         turn = (*turn[:3], *(algebra.reduced(m + pitch * x) for m, x in zip(turn[3:], w, strict=True)))
     return {joint.name: turn}
 
@@ -89,7 +90,7 @@ def value(
         n1, n2 = local.perpendiculars(u)
         there = second.direction(local.apply(local.transpose(geometry.zero(joint)), n1))
         cosine, sine = (algebra.dot(first.direction(n), there) for n in (n1, n2))
-        found.append(JointValue(cosine, sine, algebra.ring.one))
+        found.append(JointValue(cosine, sine, algebra.number(local.dot(n1, n1))))
     if kind in (JointKind.P, JointKind.C):
         if length is None:
             length = algebra.dot(minus(second.point(b), first.point(a)), first.direction(u))

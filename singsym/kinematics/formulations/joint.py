@@ -8,7 +8,6 @@ no polynomial in cosine, sine and slide vanishes on it.
 from __future__ import annotations
 
 from singsym.kinematics.dimensions import dimensions
-
 from singsym.kinematics.formulations import local
 from singsym.kinematics.formulations.assembly import Assembly, placement
 from singsym.kinematics.formulations.frames import Algebra, rigid
@@ -19,6 +18,22 @@ from singsym.kinematics.placement import Placement
 from singsym.mechanism.model import Mechanism
 
 _ANGLES = ("auto", "absolute", "relative")
+
+
+def suits(mechanism: Mechanism) -> bool:
+    """Whether every part that hangs on spherical joints alone is a platform, a rod or a strut.
+
+    If not, the natural formulation takes it.
+    """
+    mechanism = mechanism.resolved
+    geometry = local.Geometry(mechanism)
+    reached = {mechanism.ground, *(child for _, _, child in spanning_steps(mechanism))}
+    rods = {link for strut in find_struts(mechanism, geometry) for link in strut.links}
+    try:
+        find_platforms(mechanism, geometry, reached, rods, False)
+    except ValueError:
+        return False
+    return True
 
 
 def place(mechanism: Mechanism, *, angles: str = "auto", quaternion: bool = False) -> Placement:
@@ -32,6 +47,7 @@ def place(mechanism: Mechanism, *, angles: str = "auto", quaternion: bool = Fals
     """
     if angles not in _ANGLES:
         raise ValueError(f"angles={angles!r}: expected one of {', '.join(_ANGLES)}")
+    mechanism = mechanism.resolved
     geometry = local.Geometry(mechanism)
     tree = spanning_steps(mechanism)
     open_chain = len(mechanism.joints) < len(mechanism.links)
@@ -49,7 +65,7 @@ def place(mechanism: Mechanism, *, angles: str = "auto", quaternion: bool = Fals
     origin = rigid(algebra, algebra.origin, algebra.axes)
     grown = grow(geometry, algebra, {mechanism.ground: origin}, steps)
     assembly = Assembly(mechanism, geometry, algebra, grown.bodies, list(grown.circles), grown.values)
-    assembly.circles = () if open_chain else grown.circles
+    assembly.circles = grown.circles
     hang_platforms(assembly, platforms, rods)
     hang_struts(assembly, struts)
     used = {step.joint.name for step in steps}

@@ -5,8 +5,7 @@ Source: textbook vector algebra; the shortest rotation between two directions is
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from functools import cached_property
+from collections.abc import Sequence
 
 import sympy
 
@@ -138,7 +137,9 @@ def shortest_rotation(start: Vector, end: Vector) -> Matrix:
 
 
 def perpendiculars(axis: Vector) -> tuple[Vector, Vector]:
-    """Unit vectors n1, n2 with (n1, n2, axis) right-handed; coordinate axes where possible.
+    """Vectors n1, n2 of one length with (n1, n2, axis) a right-handed right-angled system.
+
+    Rational in the axis; coordinate axes where possible, else not of length 1.
 
     >>> perpendiculars((0, 0, 1))
     ((1, 0, 0), (0, 1, 0))
@@ -146,7 +147,7 @@ def perpendiculars(axis: Vector) -> tuple[Vector, Vector]:
     for index in range(3):
         if is_zero(axis[index]):
             return UNITS[index], cross(axis, UNITS[index])
-    first = unit(cross(UNITS[0], axis))
+    first = cross(UNITS[0], axis)
     return first, cross(axis, first)
 
 
@@ -168,8 +169,13 @@ def is_collinear(points: Sequence[Vector]) -> bool:
     return all(vanishes(cross(nonzero[0], d)) for d in nonzero[1:])
 
 
+def in_space(vector: Vector) -> Vector:
+    """A planar vector with third component 0, a spatial one as it is."""
+    return vector if len(vector) == 3 else (*vector, sympy.Integer(0))
+
+
 class Geometry:
-    """The named points and axes of a mechanism's links as exact vectors of space, values put in.
+    """The named points and axes of a resolved mechanism's links as exact vectors of space.
 
     A planar mechanism lies in the plane z = 0 and its pins point along z; the joints of a spherical one
     have their points at the origin where none is given.
@@ -178,25 +184,11 @@ class Geometry:
     def __init__(self, mechanism: Mechanism) -> None:
         self.mechanism = mechanism
 
-    @cached_property
-    def values(self) -> Mapping[sympy.Symbol, sympy.Expr]:
-        given = ((sympy.Symbol(p.name), p.value) for p in self.mechanism.parameters)
-        return {symbol: value for symbol, value in given if value is not None}
-
-    def number(self, expression: sympy.Expr) -> sympy.Expr:
-        """An expression with the parameters of known value replaced."""
-        number = sympy.sympify(expression, strict=True)
-        return number if number.is_Rational else number.subs(self.values)
-
-    def vector(self, components: Iterable[sympy.Expr]) -> Vector:
-        numbers = tuple(self.number(x) for x in components)
-        return numbers if len(numbers) == 3 else (*numbers, sympy.Integer(0))
-
     def point(self, link: str, name: str) -> Vector:
         """A point of a link, in its frame; raises `ValueError` naming the link's points."""
         points = self.mechanism.link(link).points
         if name in points:
-            return self.vector(points[name])
+            return in_space(points[name])
         if self.mechanism.space is Space.SPHERICAL:
             return (sympy.Integer(0),) * 3
         raise ValueError(f"link {link!r} has no point {name!r}; its points are {sorted(points)}")
@@ -206,7 +198,7 @@ class Geometry:
         axes = self.mechanism.link(link).axes
         if name not in axes:
             raise ValueError(f"link {link!r} has no axis {name!r}; its axes are {sorted(axes)}")
-        return unit(self.vector(axes[name]))
+        return unit(in_space(axes[name]))
 
     def points(self, joint: Joint) -> tuple[Vector, Vector]:
         """The joint's point in its two links."""
@@ -230,7 +222,7 @@ class Geometry:
             if is_zero(dot(a, b)):
                 return IDENTITY
             rest = minus(b, times(dot(a, b), a))
-            return shortest_rotation(b, perpendiculars(a)[0] if vanishes(rest) else unit(rest))
+            return shortest_rotation(b, unit(perpendiculars(a)[0] if vanishes(rest) else rest))
         if joint.reference is None:
             return shortest_rotation(b, a)
         x = self.axis(joint.first, joint.reference[0])

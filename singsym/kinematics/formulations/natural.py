@@ -7,7 +7,6 @@ Source: natural coordinates, Garcia de Jalon, Bayo, Kinematic and Dynamic Simula
 from __future__ import annotations
 
 from singsym.kinematics.dimensions import dimensions
-
 from singsym.kinematics.formulations import local
 from singsym.kinematics.formulations.assembly import Assembly, placement
 from singsym.kinematics.formulations.frames import Algebra, Body, composed, minus, plus, rigid
@@ -25,6 +24,7 @@ def place(mechanism: Mechanism, *, quaternion: bool = False) -> Placement:
     q0, ..., q3, a double cover (q and -q are one configuration).
     Raises `ValueError` for a rod whose ends have no place of their own.
     """
+    mechanism = mechanism.resolved
     geometry = local.Geometry(mechanism)
     struts = find_struts(mechanism, geometry)
     rods = {link for strut in struts for link in strut.links}

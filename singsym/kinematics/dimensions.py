@@ -1,0 +1,366 @@
+"""From the SymPy numbers of a mechanism to polynomials: fixed values put in, ranges kept, irrational numbers exact.
+
+Source: singsym's own; the field of the cosines and Gauss sums: Washington, Introduction to Cyclotomic Fields.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import sympy
+
+from singsym.kinematics.numberfield import Atoms, NumberField, number_field
+from singsym.mechanism.model import Mechanism, Parameter
+from singsym.polynomials import AlgebraicConstant, Polynomial, Ring
+
+
+@dataclass(frozen=True)
+class Auxiliary:
+    """A name for a root or an inverse of an expression in ranged parameters: name^index = base, index -1: inverse."""
+
+    name: str
+    base: sympy.Expr
+    index: int
+
+
+@dataclass(frozen=True)
+class Dimensions:
+    """The numbers of a mechanism, ready to become polynomials.
+
+    Make one with `Dimensions.of`; then `ring(variables)` and `polynomial(ring, expression)`.
+
+    >>> D = Dimensions.of_expressions([sympy.sqrt(3) / 2])
+    >>> R = D.ring(("x",))
+    >>> R.names
+    ('x', 'sqrt3')
+    >>> D.polynomial(R, (sympy.Symbol("x") - sympy.sqrt(3) / 2) ** 2)
+    x^2 - x*sqrt3 + 3/4
+    """
+
+    ranges: tuple[Parameter, ...] = ()
+    values: Mapping[sympy.Symbol, sympy.Expr] = field(default_factory=dict)
+    numbers: NumberField = field(default_factory=NumberField)
+    auxiliaries: tuple[Auxiliary, ...] = ()
+
+    @classmethod
+    def of(cls, mechanism: Mechanism, extra: Iterable[Any] = ()) -> Dimensions:
+        """The dimensions of a mechanism; `extra`: further expressions that will be turned into polynomials.
+
+        Needed in `extra` is only what brings new irrational numbers, such as the length of an axis.
+        """
+        expressions: list[Any] = [*extra]
+        for link in mechanism.links:
+            for vector in (*link.points.values(), *link.axes.values()):
+                expressions.extend(vector)
+        expressions.extend(joint.pitch for joint in mechanism.joints if joint.pitch is not None)
+        for limit in mechanism.limits:
+            expressions.extend((limit.expression, limit.low, limit.high))
+        expressions.extend(e.expression for e in mechanism.exclusions)
+        for axis in (a for link in mechanism.links for a in link.axes.values()):
+            expressions.append(norm(axis))
+        return cls.of_expressions(expressions, mechanism.parameters)
+
+    @classmethod
+    def of_expressions(cls, expressions: Iterable[Any], parameters: Sequence[Parameter] = ()) -> Dimensions:
+        """The dimensions that occur in these expressions (None among them is passed over)."""
+        ranges = tuple(p for p in parameters if p.value is None)
+        values = _resolved({sympy.Symbol(p.name): p.value for p in parameters if p.value is not None})
+        atoms = Atoms()
+        roots: dict[tuple[sympy.Expr, int], None] = {}
+        bounds = [bound for p in ranges for bound in (p.low, p.high)]
+        for expression in (*expressions, *bounds):
+            if expression is not None:
+                _collect(sympy.sympify(expression).xreplace(values), atoms, roots)
+        taken = {p.name for p in ranges}
+        auxiliaries = []
+        for base, index in roots:
+            stem = "inverse" if index < 0 else "root"
+            name = next(
+                n for n in (f"{stem}{k}" for k in range(1, len(roots) + len(taken) + 2)) if n not in taken
+            )
+            taken.add(name)
+            auxiliaries.append(Auxiliary(name, base, index))
+        return cls(ranges, values, number_field(atoms), tuple(auxiliaries))
+
+    # -- names and rings -------------------------------------------------------------------------
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """Names of the symbolic dimensions, auxiliary ones included, in the order they have in every ring."""
+        return (*(p.name for p in self.ranges), *(a.name for a in self.auxiliaries))
+
+    @property
+    def constants(self) -> tuple[AlgebraicConstant, ...]:
+        """The irrational numbers that every ring of this mechanism has."""
+        return self.numbers.constants
+
+    def ring(self, variables: Sequence[str]) -> Ring:
+        """The ring in these configuration variables, then the parameters, then the constants."""
+        names = (*variables, *self.parameters, *(c.name for c in self.constants))
+        doubled = sorted({n for n in names if names.count(n) > 1})
+        if doubled:
+            raise ValueError(
+                f"{doubled} would be used twice as names of a ring: rename a parameter or a point"
+            )
+        return Ring(names, constants=self.constants)
+
+    @cached_property
+    def base(self) -> Ring:
+        """The ring of the dimensions alone."""
+        return self.ring(())
+
+    def names(self) -> Names:
+        """A dispenser of variable names that differ from those of the dimensions."""
+        return Names({*self.parameters, *(c.name for c in self.constants)})
+
+    # -- conversion ------------------------------------------------------------------------------
+
+    def polynomial(
+        self, ring: Ring, expression: Any, symbols: Mapping[str, Polynomial] | None = None
+    ) -> Polynomial:
+        """The expression as a polynomial of `ring`, reduced modulo the relations of the constants.
+
+        symbols: what a symbol's name stands for, if not for the variable of that name.
+        Raises `ValueError` for floats, unknown symbols, and numbers not announced to `of`.
+        """
+        expression = sympy.sympify(expression).xreplace(dict(self.values))
+        return self.normal(self._convert(ring, expression, symbols or {}))
+
+    def vector(self, ring: Ring, expressions: Iterable[Any]) -> tuple[Polynomial, ...]:
+        """Several expressions at once."""
+        return tuple(self.polynomial(ring, e) for e in expressions)
+
+    def normal(self, polynomial: Polynomial) -> Polynomial:
+        """Reduced modulo the minimal polynomials of the constants (sqrt(3)^2 becomes 3)."""
+        if not self.constants:
+            return polynomial
+        ring = polynomial.ring
+        value = polynomial.value
+        for constant, relation in zip(ring.constants, ring.relations, strict=True):
+            if polynomial.degree(constant.name) >= len(constant.minimal) - 1:
+                value = divmod(value, relation.value)[1]
+                polynomial = Polynomial(ring, value)
+        return polynomial
+
+    def _convert(self, ring: Ring, e: Any, symbols: Mapping[str, Polynomial]) -> Polynomial:
+        if e.is_Rational:
+            return ring.constant(_fraction(e))
+        if e.is_Symbol:
+            if e.name in symbols:
+                return symbols[e.name]
+            if e.name not in ring.names:
+                raise ValueError(f"the symbol {e.name} is neither a parameter nor one of {ring.names}")
+            return ring.gen(e.name)
+        if e.is_Add:
+            return sum((self._convert(ring, a, symbols) for a in e.args), start=ring.zero)
+        if e.is_Mul:
+            product = ring.one
+            for a in e.args:
+                product = self.normal(product * self._convert(ring, a, symbols))
+            return product
+        if e.is_Pow and e.exp.is_Integer and e.exp > 0:
+            power = self._convert(ring, e.base, symbols) ** int(e.exp)
+            return self.normal(power)
+        return self._atom(ring, e, symbols)
+
+    def _atom(self, ring: Ring, e: Any, symbols: Mapping[str, Polynomial]) -> Polynomial:
+        if e.is_number:
+            if e.is_Pow and e.exp.is_Rational and e.exp < 0:
+                return ring.convert(self.numbers.inverse(self._number(e.base ** (-e.exp))))
+            if e.is_Pow and e.exp.is_Rational and e.exp > 1:
+                whole = int(e.exp)
+                rest = self._convert(ring, e.base ** (e.exp - whole), symbols)
+                return self.normal(self._convert(ring, e.base, symbols) ** whole * rest)
+            if isinstance(e, sympy.tan):
+                return self._convert(ring, sympy.sin(e.args[0]) / sympy.cos(e.args[0]), symbols)
+            return ring.convert(self.numbers.image(e))
+        if e.is_Pow and e.exp.is_Rational:
+            numerator, index = int(e.exp.p), int(e.exp.q)
+            result = self._convert(ring, e.base, symbols)
+            if index > 1:
+                result = ring.gen(self._auxiliary(e.base, index))
+            if numerator < 0:
+                result = ring.gen(
+                    self._auxiliary(e.base if index == 1 else e.base ** sympy.Rational(1, index), -1)
+                )
+            return result ** abs(numerator)
+        raise ValueError(f"{e} is not a polynomial in the parameters and exact real numbers")
+
+    def _number(self, e: Any) -> Polynomial:
+        return self.numbers.normal(self.numbers.ring.convert(self.polynomial(self.base, e)))
+
+    def _auxiliary(self, base: Any, index: int) -> str:
+        for auxiliary in self.auxiliaries:
+            if auxiliary.index == index and auxiliary.base == base:
+                return auxiliary.name
+        raise ValueError(f"{base} to the power {index if index < 0 else f'1/{index}'} was not announced")
+
+    # -- questions about dimensions --------------------------------------------------------------
+
+    def is_zero(self, expression: Any) -> bool:
+        """Whether the expression is zero identically in the parameters (exact)."""
+        return self.polynomial(self.base, expression).is_zero
+
+    def is_numeric(self, expression: Any) -> bool:
+        """Whether no ranged parameter is left in it once fixed values are put in."""
+        return not sympy.sympify(expression).xreplace(dict(self.values)).free_symbols
+
+    def is_positive(self, expression: Any) -> bool:
+        """Whether it is certainly positive for all admitted parameters; False where that is not seen."""
+        known = {
+            sympy.Symbol(p.name): sympy.Symbol(p.name, positive=True)
+            for p in self.ranges
+            if p.low is not None and (p.low == 0 or bool(sympy.sympify(p.low).is_positive))
+        }
+        return bool(sympy.sympify(expression).xreplace(dict(self.values)).xreplace(known).is_positive)
+
+    # -- what the dimensions add to a configuration space ----------------------------------------
+
+    def relations(self, ring: Ring) -> tuple[Polynomial, ...]:
+        """Equations that the constants and the auxiliary names obey."""
+        found = []
+        for a in self.auxiliaries:
+            base = self.polynomial(ring, a.base)
+            name = ring.gen(a.name)
+            found.append(name * base - 1 if a.index < 0 else name**a.index - base)
+        return (*ring.relations, *found)
+
+    def positive(self, ring: Ring) -> tuple[Polynomial, ...]:
+        """Polynomials > 0 that say the open ranges of the parameters."""
+        found = []
+        for p in self.ranges:
+            if p.low is not None:
+                found.append(ring.gen(p.name) - self.polynomial(ring, p.low))
+            if p.high is not None:
+                found.append(self.polynomial(ring, p.high) - ring.gen(p.name))
+        return tuple(found)
+
+    def nonnegative(self, ring: Ring) -> tuple[Polynomial, ...]:
+        """Polynomials >= 0 that choose the auxiliary roots of even index."""
+        return tuple(ring.gen(a.name) for a in self.auxiliaries if a.index > 0 and a.index % 2 == 0)
+
+
+class Names:
+    """Dispenses names of ring variables: letters, digits and underscores, each once.
+
+    >>> n = Names({"a"})
+    >>> n.new("a"), n.new("B'x"), n.new("B'x")
+    ('a_', 'B_x', 'B_x_')
+    """
+
+    def __init__(self, taken: set[str]) -> None:
+        self.taken = set(taken)
+
+    def new(self, wish: str) -> str:
+        """The wish, made a word and, where it is taken, longer by underscores."""
+        name = "".join(c if c.isascii() and c.isalnum() else "_" for c in wish)
+        if not name[:1].isalpha():
+            name = f"v{name}"
+        while name in self.taken:
+            name += "_"
+        self.taken.add(name)
+        return name
+
+
+def norm(vector: Iterable[Any]) -> sympy.Expr:
+    """The length of a vector of SymPy numbers.
+
+    >>> norm((sympy.Integer(1), sympy.Integer(1)))
+    sqrt(2)
+    """
+    return sympy.sqrt(sympy.expand(sympy.Add(*(sympy.sympify(x) ** 2 for x in vector))))
+
+
+def _fraction(e: Any) -> Any:
+    from fractions import Fraction
+
+    return Fraction(int(e.p), int(e.q))
+
+
+def _resolved(values: dict[sympy.Symbol, sympy.Expr]) -> dict[sympy.Symbol, sympy.Expr]:
+    """Fixed parameters may be given through one another; raises `ValueError` on a circle."""
+    for _ in range(len(values) + 1):
+        settled = {s: sympy.sympify(v).xreplace(values) for s, v in values.items()}
+        if settled == values:
+            return settled
+        values = settled
+    raise ValueError(f"parameters {sorted(map(str, values))} are given through one another in a circle")
+
+
+def _collect(e: Any, atoms: Atoms, roots: dict[tuple[sympy.Expr, int], None]) -> None:
+    """Note the irrational numbers and the roots and inverses of symbols that occur in an expression."""
+    if e.is_Float:
+        raise ValueError(
+            f"the float {e} is not exact: give a rational such as {sympy.nsimplify(e, rational=True)}"
+        )
+    if e.is_Rational or e.is_Symbol:
+        return
+    if e.is_Add or e.is_Mul:
+        for a in e.args:
+            _collect(a, atoms, roots)
+        return
+    if e.is_Pow and e.exp.is_Rational:
+        if e.is_number:
+            if e.exp.is_Integer:
+                _collect(e.base, atoms, roots)
+            else:
+                atoms.root(e.base, int(e.exp.q))
+            return
+        _collect(e.base, atoms, roots)
+        root = e.base if e.exp.is_Integer else e.base ** sympy.Rational(1, e.exp.q)
+        if not e.exp.is_Integer:
+            roots[(e.base, int(e.exp.q))] = None
+        if e.exp < 0:
+            roots[(root, -1)] = None
+        return
+    if e.is_number and isinstance(e, (sympy.cos, sympy.sin, sympy.tan)):
+        atoms.angle(e)
+        return
+    raise ValueError(
+        f"{e} is not built from rational numbers, parameters, roots, and sin, cos of rational angles"
+    )
+
+
+@dataclass(frozen=True)
+class Sized:
+    """The numbers of a mechanism in the ring of one formulation of it."""
+
+    dimensions: Dimensions
+    ring: Ring
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """The ring's names that are dimensions."""
+        return self.dimensions.parameters
+
+    @property
+    def positive(self) -> tuple[Polynomial, ...]:
+        """The parameters' open ranges."""
+        return self.dimensions.positive(self.ring)
+
+    @property
+    def relations(self) -> tuple[Polynomial, ...]:
+        """What the constants and auxiliary names obey."""
+        return self.dimensions.relations(self.ring)
+
+    def number(self, expression: Any) -> Polynomial:
+        """A dimension as a reduced polynomial of the ring."""
+        return self.dimensions.polynomial(self.ring, expression)
+
+    def reduced(self, polynomial: Polynomial) -> Polynomial:
+        """The same value, of low degree in the constants."""
+        return self.dimensions.normal(polynomial)
+
+
+def dimensions(mechanism: Mechanism, variables: Sequence[str]) -> Sized:
+    """The mechanism's numbers in the ring of these configuration variables.
+
+    >>> from singsym.mechanism import load
+    >>> dimensions(load("fourbar"), ("x",)).ring
+    Q[x]
+    """
+    found = Dimensions.of(mechanism)
+    return Sized(found, found.ring(variables))

@@ -1,0 +1,36 @@
+"""Formulations: how a configuration is described by polynomial variables and equations.
+
+Source: Zlatanov, Fenton, Benhabib (1998), section 2.4; each module names the source of its own coordinates.
+"""
+
+from __future__ import annotations
+
+from singsym.kinematics.constraints import constrained
+from singsym.kinematics.formulations import joint, natural, planar
+from singsym.kinematics.placement import Placement
+from singsym.mechanism.model import Mechanism, Space
+
+FORMULATIONS = ("planar", "joint", "natural", "quaternion")
+
+
+def place(mechanism: Mechanism, formulation: str = "auto") -> Placement:
+    """The mechanism's variables, loop equations, screws and feasible set in a formulation.
+
+    formulation: "planar" (pins as points), "joint" (angles along a tree), "natural" (points and unit vectors),
+        "quaternion" (natural, platforms by quaternions), or "auto": the mechanism's own wish, else planar for
+        planar mechanisms with loops, joint otherwise.
+    Raises `ValueError` for another name, `MechanismError` where the mechanism cannot be placed.
+    """
+    chosen = mechanism.formulation if formulation == "auto" else formulation
+    if chosen == "auto":
+        closed = len(mechanism.joints) >= len(mechanism.links)
+        chosen = "planar" if closed and mechanism.space is Space.PLANAR else "joint"
+    if chosen not in FORMULATIONS:
+        raise ValueError(f"formulation {chosen!r}: expected auto, {', '.join(FORMULATIONS)}")
+    if chosen == "planar":
+        placed = planar.place(mechanism)
+    elif chosen == "joint":
+        placed = joint.place(mechanism)
+    else:
+        placed = natural.place(mechanism, quaternion=chosen == "quaternion")
+    return constrained(mechanism, placed)
