@@ -136,7 +136,7 @@ class Cell:
 
         With inequalities the cell is a real set, and `field="complex"` can only prove it empty.
         """
-        with current(budget):
+        with current(budget).part():
             try:
                 verdict = self._is_empty()
                 if verdict.is_yes or (field == "complex" and not self.is_real):

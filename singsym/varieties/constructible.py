@@ -126,7 +126,7 @@ class ConstructibleSet:
         >>> imaginary.is_empty().answer, imaginary.is_empty("real").answer
         (<Answer.NO: 'no'>, <Answer.YES: 'yes'>)
         """
-        with current(budget):
+        with current(budget).part():
             verdicts = []
             for cell in self.cells:
                 verdicts.append(cell.is_empty(field))
@@ -143,7 +143,7 @@ class ConstructibleSet:
     ) -> Verdict:
         """Whether every point of this set is in the other; the witness of "no" is of a point outside."""
         self._same_ring(other)
-        with current(budget):
+        with current(budget).part():
             return self._outside(other, field).is_empty(field)
 
     def _outside(self, other: ConstructibleSet, field: Field) -> ConstructibleSet:
@@ -163,14 +163,14 @@ class ConstructibleSet:
         >>> ConstructibleSet.zeros(R, x**2).equals(ConstructibleSet.zeros(R, x)).answer
         <Answer.YES: 'yes'>
         """
-        with current(budget):
+        with current(budget).part():
             there = self.is_subset(other, field)
             return there if there.is_no else _both(there, other.is_subset(self, field))
 
     def tidy(self, budget: Budget | None = None) -> ConstructibleSet:
         """Without the cells proven empty over the complex numbers; the undecided ones stay, marked."""
         kept = []
-        with current(budget):
+        with current(budget).part():
             for cell in dict.fromkeys(self.cells):
                 verdict = cell.is_empty()
                 if verdict.is_no or (cell.is_real and verdict.is_undecided):
@@ -183,7 +183,7 @@ class ConstructibleSet:
 
     def components(self, budget: Budget | None = None) -> tuple[Component, ...]:
         """The components of the Zariski closure over Q, inequalities left out; raises `Undecided`."""
-        with current(budget):
+        with current(budget).part():
             return prune(piece for cell in self.cells for piece in cell.pieces())
 
     @property
@@ -197,7 +197,7 @@ class ConstructibleSet:
         A component not proven prime is saturated by the exclusions.
         """
         cells = []
-        with current(budget):
+        with current(budget).part():
             for cell in self.cells:
                 for piece in cell.pieces():
                     ideal = piece.ideal
@@ -216,7 +216,7 @@ class ConstructibleSet:
         from singsym.varieties.real.witness import find_witness
 
         found: list[Witness] = []
-        with current(budget):
+        with current(budget).part():
             for turn in range(n):
                 for cell in self.cells if len(found) < n else ():
                     try:
@@ -231,7 +231,7 @@ class ConstructibleSet:
         """The image in the space of the variables `names`, with whether it is exact (see `projection`)."""
         from singsym.varieties.projection import project
 
-        with current(budget):
+        with current(budget).part():
             return project(self, tuple(names))
 
     # -- display ---------------------------------------------------------------------------------

@@ -9,12 +9,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
-from singsym.elimination.budget import Budget, current
+from singsym.elimination import engines
+from singsym.elimination.budget import Budget, Undecided, current
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.memo import remember
 from singsym.elimination.progress import Sink, report, to
 from singsym.polynomials import Polynomial, Ring
-from singsym.varieties.irreducibility import analyse, independent_variables, leading_exponents
+from singsym.varieties.irreducibility import Splitting, analyse, independent_variables, leading_exponents
 from singsym.varieties.splitting import (
     factor_equations,
     irreducible_factors,
@@ -22,6 +23,8 @@ from singsym.varieties.splitting import (
     linear_substitution,
     used_ring,
 )
+
+_PROOF_SECONDS = 10.0
 
 
 @dataclass(frozen=True)
@@ -90,7 +93,7 @@ def decompose(
     if forbidden is None:
         return ()
     given = (*ring.relations, *(ring.convert(p) for p in equations))
-    with current(budget), to(progress):
+    with current(budget).part(), to(progress):
         pieces = _branch(ring, given, forbidden, keep)
         full = [_in_ring(piece, ring) for piece in pieces]
         kept = [c for c in full if not any(c.vanishes(p) for p in forbidden) and (keep is None or keep(c))]
@@ -279,7 +282,7 @@ def _by_eliminant(system: _System, ideal: Ideal, dimension: int) -> tuple[Compon
     if len(ideal.generators) == 1:
         return (Component(ideal, proven, dimension, True),)
     unmixed = system.macaulay and system.least == dimension
-    found = analyse(ideal, unmixed=unmixed)
+    found = _analysed(ideal, unmixed)
     if found.factors and not any(ideal.contains(f) for f in found.factors):
         pieces = [_in_ring(p, ring) for f in found.factors for p in _refine(system.plus(f))]
         return prune(pieces)
@@ -289,4 +292,25 @@ def _by_eliminant(system: _System, ideal: Ideal, dimension: int) -> tuple[Compon
         curve = ideal.saturate(found.cut)
         beside = [_in_ring(p, ring) for p in _refine(system.plus(found.cut))]
         return prune((Component(curve, curve.certainty == "proven", dimension, True), *beside))
-    return (Component(ideal, False, dimension, unmixed),)
+    return _by_engine(ideal) or (Component(ideal, False, dimension, unmixed),)
+
+
+def _analysed(ideal: Ideal, unmixed: bool) -> Splitting:
+    try:
+        with current().part(_PROOF_SECONDS):
+            return analyse(ideal, unmixed=unmixed)
+    except Undecided:
+        current().check("decomposition")
+        return Splitting()
+
+
+def _by_engine(ideal: Ideal) -> tuple[Component, ...]:
+    """The minimal primes by Singular where it is present and quick, else nothing."""
+    if not engines.has("singular"):
+        return ()
+    try:
+        primes = ideal.minimal_primes(current().part(_PROOF_SECONDS))
+        return prune(Component(p, p.certainty == "proven", p.dimension) for p in primes)
+    except Undecided:
+        current().check("decomposition")
+        return ()

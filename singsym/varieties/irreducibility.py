@@ -9,7 +9,7 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import combinations, combinations_with_replacement
+from itertools import combinations_with_replacement
 
 from flint import fmpq, fmpq_mat, fmpq_poly, fmpz_mat, nmod_mat
 
@@ -55,12 +55,24 @@ def independent_variables(leads: Sequence[Exponents], count: int) -> tuple[int, 
     minimal = [s for s in supports if not any(t < s for t in supports)]
     pure = {i for s in minimal if len(s) == 1 for i in s}
     free = [i for i in range(count) if i not in pure]
-    minimal = [s for s in minimal if len(s) > 1]
-    for size in range(len(free) + 1):
-        for left_out in combinations(free, size):
-            if all(not s.isdisjoint(left_out) for s in minimal):
-                return tuple(i for i in free if i not in left_out)
-    return ()
+    left_out = _smallest_cover([s - pure for s in minimal if len(s) > 1 and s.isdisjoint(pure)])
+    return tuple(i for i in free if i not in left_out)
+
+
+def _smallest_cover(supports: list[frozenset[int]]) -> frozenset[int]:
+    """A smallest set of indices that meets all supports, by branch and bound."""
+    best = frozenset[int]().union(*supports)
+
+    def search(left: list[frozenset[int]], taken: frozenset[int]) -> None:
+        nonlocal best
+        if not left:
+            best = taken if len(taken) < len(best) else best
+        elif len(taken) + 1 < len(best):
+            for i in sorted(min(left, key=lambda s: len(s))):
+                search([s for s in left if i not in s], taken | {i})
+
+    search(supports, frozenset())
+    return best
 
 
 @dataclass(frozen=True)
