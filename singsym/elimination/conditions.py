@@ -20,7 +20,7 @@ from singsym.kinematics.reduction import Reduction
 from singsym.minors.blocks import block_triangular
 from singsym.minors.determinant import block_determinants
 from singsym.minors.factored import FactoredDeterminant, Unit, factored
-from singsym.minors.rank import RankBlocks, alternatives, minor_factors, rank_blocks
+from singsym.minors.rank import RankBlocks, alternatives, is_small, minor_factors, rank_blocks
 from singsym.polynomials import Polynomial, PolynomialMatrix
 
 if TYPE_CHECKING:
@@ -278,21 +278,21 @@ class Conditions:
 
     def _determinant(self, name: str) -> FactoredDeterminant:
         """The determinant, in the smallest of the forms that the full and the reduced matrices give."""
-        reduced = self.matrix(name)
-        choices = [factored(block_determinants(reduced), self.certifier)]
+        reduced: PolynomialMatrix = self.matrix(name)
         full: PolynomialMatrix = getattr(self.equation, name)
-        form = block_triangular(full)
-        if (
-            choices[0].factors
-            and max((len(rows) for rows, _ in form.square), default=0) <= LARGEST_DETERMINANT
-        ):
-            choices.append(factored(block_determinants(full), self.certifier))
-        apart = self.rank_blocks(name)
-        if choices[0].factors and all(block.shape[0] == block.shape[1] for block in apart.blocks):
-            size = sum(block.shape[0] for block in apart.blocks)
-            if apart.constant + size == full.width:
+        choices = []
+        if _largest_block(reduced) <= LARGEST_DETERMINANT:
+            choices.append(factored(block_determinants(reduced), self.certifier))
+        else:
+            apart = self.rank_blocks(name)
+            square = all(block.shape[0] == block.shape[1] for block in apart.blocks)
+            if square and apart.constant + sum(block.width for block in apart.blocks) == full.width:
                 parts = (d for block in apart.blocks for d in block_determinants(block))
                 choices.append(factored(parts, self.certifier))
+            else:
+                choices.append(factored(block_determinants(reduced), self.certifier))
+        if choices[0].factors and _largest_block(full) <= LARGEST_DETERMINANT:
+            choices.append(factored(block_determinants(full), self.certifier))
         return min(choices, key=lambda choice: (not choice.vanishes, choice.size))
 
     def _rank_condition(self, label: str, name: str, required: int, plain: str, latex: str) -> Condition:
@@ -301,12 +301,15 @@ class Conditions:
         everywhere = apart.constant + sum(min(block.shape) for block in apart.blocks) < required
         found: list[tuple[Polynomial, ...]] = []
         losing = None if everywhere else apart.locus(required)
+        if losing and not all(is_small(block) for block in losing):
+            losing = None
         for block in losing or ():
             minors = minor_factors(block, self.certifier)
             if minors is None:
                 continue
             everywhere = everywhere or not minors
-            found += alternatives(minors) or [tuple(prod(f, start=block.ring.one) for f in minors)]
+            choices = alternatives(minors, self.certifier)
+            found += [tuple(prod(f, start=block.ring.one) for f in minors)] if choices is None else choices
         decided = losing is not None and not everywhere
         return Condition(
             label,
@@ -317,6 +320,11 @@ class Conditions:
             everywhere,
             blocks=apart,
         )
+
+
+def _largest_block(matrix: PolynomialMatrix) -> int:
+    """The size of the largest diagonal block of the block triangular form."""
+    return max((len(rows) for rows, _ in block_triangular(matrix).square), default=0)
 
 
 def conditions(equation: VelocityEquation, reduction: Reduction) -> Conditions:

@@ -6,7 +6,7 @@ uniquely determined at every feasible configuration.  The proofs are elementary;
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -94,38 +94,57 @@ class Certifier:
 
     # -- short forms ---------------------------------------------------------------------------------
 
-    def forms(self, polynomial: Polynomial) -> Iterator[Polynomial]:
+    def forms(self, polynomial: Polynomial) -> tuple[Polynomial, ...]:
         """Other polynomials with the same values on the configuration space; the first is a normal form
         modulo the sums of squares, in which equal polynomials on circles and spheres are identical."""
         if len(polynomial) > LONGEST:
-            return
-        for place in (-1, 0):
-            yield self._without_squares(polynomial, place)
+            return ()
+        if polynomial not in self._forms:
+            both = (self._without_squares(polynomial, place) for place in (-1, 0))
+            self._forms[polynomial] = tuple(dict.fromkeys(both))
+        return self._forms[polynomial]
 
     def normal_form(self, polynomial: Polynomial) -> Polynomial:
         """The normal form modulo the equations that are sums of squares of variables."""
         return self._without_squares(polynomial, -1)
 
     def _without_squares(self, polynomial: Polynomial, place: int) -> Polynomial:
-        for equation, names in self._squares:
-            if polynomial.degree(names[place]) >= equation.degree(names[place]):
-                polynomial = remainder(polynomial, equation, names[place])
+        degrees = polynomial.degrees
+        for equation, index, degree in self._divisors[place]:
+            if degrees[index] >= degree:
+                polynomial = remainder(polynomial, equation, self.space.ring.names[index])
+                degrees = polynomial.degrees
         return polynomial
+
+    @cached_property
+    def _divisors(self) -> tuple[list[tuple[Polynomial, int, int]], ...]:
+        """For each choice of the variable to remove: equation, variable, degree in it."""
+        return tuple(
+            [(e, e.ring.index(names[place]), e.degree(names[place])) for e, names in self._squares]
+            for place in (0, -1)
+        )
 
     def shorten(self, polynomial: Polynomial) -> Polynomial:
         """A polynomial with the same values on the configuration space, with fewer terms where one is found.
 
-        Takes away rational multiples of equations, of variables in them at most one, as long as it helps.
+        Takes away rational multiples of equations as long as it helps.
         """
-        best = polynomial
         if polynomial.total_degree < 2 or len(polynomial) > LONGEST:
             return polynomial
-        for form in self.forms(polynomial):
-            if len(form) < len(best):
-                best = form
-        while (shorter := self._shorter(best)) is not None:
-            best = shorter
-        return best
+        if polynomial not in self._short:
+            best = min((polynomial, *self.forms(polynomial)), key=len)
+            while (shorter := self._shorter(best)) is not None:
+                best = shorter
+            self._short[polynomial] = best
+        return self._short[polynomial]
+
+    @cached_property
+    def _forms(self) -> dict[Polynomial, tuple[Polynomial, ...]]:
+        return {}
+
+    @cached_property
+    def _short(self) -> dict[Polynomial, Polynomial]:
+        return {}
 
     def _shorter(self, polynomial: Polynomial) -> Polynomial | None:
         terms = dict(polynomial.terms())
@@ -269,17 +288,23 @@ class Certifier:
 
         So it is where it divides all of them, or where it is a positive multiple of their squares' sum.
         """
-        for exclusion in self.space.exclusions:
-            words = "nonzero outside the excluded " + ", ".join(f"{short_text(g, 4)} = 0" for g in exclusion)
+        for exclusion, words, sums in self._exclusions:
             if any(form and all(form.divides(g) for g in exclusion) for form in forms):
                 return words
-            total = sum((g * g for g in exclusion), start=self.space.ring.zero)
-            if len(total) > LONGEST:
-                continue
-            sums = dict.fromkeys((total, self.shorten(total), *self.forms(total)))
             if any(form and form.divides(s) for form in forms for s in sums if s):
                 return words
         return None
+
+    @cached_property
+    def _exclusions(self) -> tuple[tuple[tuple[Polynomial, ...], str, tuple[Polynomial, ...]], ...]:
+        """Each exclusion with its words and the forms of the sum of its squares."""
+        found = []
+        for exclusion in self.space.exclusions:
+            words = "nonzero outside the excluded " + ", ".join(f"{short_text(g, 4)} = 0" for g in exclusion)
+            total = sum((g * g for g in exclusion), start=self.space.ring.zero)
+            sums = dict.fromkeys((total, self.shorten(total), *self.forms(total)))
+            found.append((exclusion, words, tuple(sums)))
+        return tuple(found)
 
 
 def _range(polynomial: Polynomial, bounds: Mapping[str, Interval]) -> Interval:

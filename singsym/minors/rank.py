@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
-from math import prod
+from math import comb, prod
 from typing import Any
 
 from flint import fmpq, fmpq_mat, nmod_mat
@@ -183,16 +183,31 @@ def full_rank_locus(block: PolynomialMatrix, certifier: Certifier) -> tuple[Poly
 
 
 MANY_ALTERNATIVES = 40
+"""More alternatives than this are not written out."""
+
+MANY_MINORS = 100
+"""More maximal minors of a block than this are not worked out."""
+
+MANY_PRODUCTS = 10**7
+"""Nor those of a block where the product of the rows' numbers of terms is larger."""
 
 
-def alternatives(minors: Minors) -> Minors | None:
+def is_small(block: PolynomialMatrix) -> bool:
+    """Whether the locus of lower rank of a block can be written with its maximal minors."""
+    wide = block if block.shape[0] <= block.shape[1] else block.T
+    products = prod(sum(len(e) for e in row) for row in wide.rows)
+    return comb(wide.width, wide.shape[0]) <= MANY_MINORS and products <= MANY_PRODUCTS
+
+
+def alternatives(minors: Minors, certifier: Certifier) -> Minors | None:
     """The common zeros of products as a union of common zeros of factors, one of each product, minimal.
 
-    None where there are too many.
+    Choices without a common zero on the feasible set are left out.  None where there are too many.
 
+    >>> from singsym.kinematics.placement import ConfigurationSpace
     >>> from singsym.polynomials import Ring
     >>> x, y, z = Ring(("x", "y", "z")).gens
-    >>> alternatives(((x, y), (y, z)))
+    >>> alternatives(((x, y), (y, z)), Certifier(ConfigurationSpace(x.ring, ())))
     ((y,), (x, z))
     """
     choices: set[frozenset[Polynomial]] = {frozenset()}
@@ -201,7 +216,12 @@ def alternatives(minors: Minors) -> Minors | None:
         choices = {c for c in wider if not any(other < c for other in wider)}
         if len(choices) > MANY_ALTERNATIVES:
             return None
-    ordered = [tuple(sorted(c, key=lambda p: (len(p), str(p)))) for c in choices]
+    possible = (
+        c
+        for c in choices
+        if len(c) < 2 or certifier.reason(sum((p * p for p in c), start=next(iter(c)) * 0)) is None
+    )
+    ordered = [tuple(sorted(c, key=lambda p: (len(p), str(p)))) for c in possible]
     return tuple(sorted(ordered, key=lambda c: (len(c), sum(len(p) for p in c), str(c))))
 
 
