@@ -12,7 +12,7 @@ import sympy
 
 from singsym.kinematics.dimensions import dimensions
 from singsym.kinematics.placement import Placement
-from singsym.mechanism.model import Exclusion, Mechanism
+from singsym.mechanism.model import Exclusion, Limit, Mechanism
 from singsym.mechanism.problems import MechanismError, Problem
 from singsym.polynomials import Polynomial
 
@@ -32,6 +32,10 @@ def constrained(mechanism: Mechanism, placed: Placement) -> Placement:
     for exclusion in mechanism.exclusions:
         exclusions.append(_excluded(exclusion, mechanism, placed))
     for limit in mechanism.limits:
+        square = _strut_square(limit, placed)
+        if square is not None:
+            nonnegative += _strut_limits(limit, square, mechanism, placed)
+            continue
         value, scale = _value(limit.expression, mechanism, placed)
         if limit.low is not None:
             nonnegative.append(value - _value(limit.low, mechanism, placed)[0] * scale)
@@ -39,6 +43,26 @@ def constrained(mechanism: Mechanism, placed: Placement) -> Placement:
             nonnegative.append(_value(limit.high, mechanism, placed)[0] * scale - value)
     space = replace(space, exclusions=tuple(exclusions), nonnegative=tuple(nonnegative))
     return replace(placed, space=space)
+
+
+def _strut_square(limit: Limit, placed: Placement) -> Polynomial | None:
+    """The squared length that a limit bounds, where the formulation knows only that of a positive length."""
+    matched = _JOINT.match(str(limit.expression)) if limit.expression.is_Symbol else None
+    if matched is None or matched["quantity"] != "length" or matched["joint"] not in placed.values:
+        return None
+    return placed.values[matched["joint"]].square
+
+
+def _strut_limits(
+    limit: Limit, square: Polynomial, mechanism: Mechanism, placed: Placement
+) -> list[Polynomial]:
+    """low <= length <= high for a positive length: by squares, a negative or zero lower bound says nothing."""
+    found = []
+    if limit.low is not None and not sympy.sympify(limit.low).is_nonpositive:
+        found.append(square - _value(limit.low, mechanism, placed)[0] ** 2)
+    if limit.high is not None:
+        found.append(_value(limit.high, mechanism, placed)[0] ** 2 - square)
+    return found
 
 
 def _excluded(exclusion: Exclusion, mechanism: Mechanism, placed: Placement) -> tuple[Polynomial, ...]:

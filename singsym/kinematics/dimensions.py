@@ -1,4 +1,4 @@
-"""From the SymPy numbers of a mechanism to polynomials: fixed values put in, ranges kept, irrational numbers exact.
+"""From the SymPy numbers of a mechanism to polynomials: values put in, ranges kept, irrational numbers exact.
 
 Source: singsym's own; the field of the cosines and Gauss sums: Washington, Introduction to Cyclotomic Fields.
 """
@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
@@ -19,7 +20,7 @@ from singsym.polynomials import AlgebraicConstant, Polynomial, Ring
 
 @dataclass(frozen=True)
 class Auxiliary:
-    """A name for a root or an inverse of an expression in ranged parameters: name^index = base, index -1: inverse."""
+    """A name for a root (name^index = base) or, index -1, an inverse of an expression in parameters."""
 
     name: str
     base: sympy.Expr
@@ -271,12 +272,17 @@ def norm(vector: Iterable[Any]) -> sympy.Expr:
     >>> norm((sympy.Integer(1), sympy.Integer(1)))
     sqrt(2)
     """
-    return sympy.sqrt(sympy.expand(sympy.Add(*(sympy.sympify(x) ** 2 for x in vector))))
+    square = sympy.expand(sympy.Add(*(sympy.sympify(x) ** 2 for x in vector)))
+    if square.is_number and not square.is_Rational:
+        # cos^2 + sin^2 must not become a nested root.
+        found = Dimensions.of_expressions((square,))
+        value = found.polynomial(found.base, square)
+        if value.is_constant:
+            square = sympy.Rational(int(value.constant.p), int(value.constant.q))
+    return sympy.sqrt(square)
 
 
-def _fraction(e: Any) -> Any:
-    from fractions import Fraction
-
+def _fraction(e: Any) -> Fraction:
     return Fraction(int(e.p), int(e.q))
 
 

@@ -104,7 +104,7 @@ def velocity_equation(mechanism: Mechanism, formulation: str = "auto") -> Veloci
     """
     placed = place(mechanism, formulation)
     ring = placed.space.ring
-    joint_columns = [c for c in mechanism.columns]
+    joint_columns = list(mechanism.columns)
     labels = [f"T.{c}" for output in mechanism.outputs for c in _components(output)]
     if len(mechanism.outputs) > 1:
         labels = [f"T{i}.{c}" for i, output in enumerate(mechanism.outputs, 1) for c in _components(output)]

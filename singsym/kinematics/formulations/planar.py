@@ -120,6 +120,7 @@ class _Placing:
     def _place_link(self, link: str, pin: str | None, slide: Joint | None) -> None:
         """All points of a link with a heading, from one of its points or along a slide."""
         heading = self.headings[link]
+        known: Coordinates
         if slide is not None:
             other, here = slide.first, slide.at[1]
             there, sign = slide.at[0], 1
@@ -134,8 +135,7 @@ class _Placing:
             anchor, known = pin, self.pins[self.plan.pin_of[link, pin]]
         else:
             x, y = (self.ring.gen(name) for name in self.plan.free_links[link])
-            turned = heading.turn((self.ring.zero, self.ring.zero))
-            anchor, known = "", (x + turned[0], y + turned[1])
+            anchor, known = "", (x, y)
         base = self._local(link, anchor) if anchor else (self.ring.zero, self.ring.zero)
         for name in self.mechanism.link(link).points:
             here_local = self._local(link, name)
@@ -201,7 +201,9 @@ class _Placing:
         turn = (one, y, -x)
         if joint.kind is JointKind.R:
             return {joint.name: turn}
-        return dict(zip(joint.columns, ((zero, one, zero), (zero, zero, one), turn), strict=True))
+        heading = self.headings.get(joint.first, Heading(one, zero, one))
+        slides = ((zero, heading.x, heading.y), (zero, -heading.y, heading.x))
+        return dict(zip(joint.columns, (*slides, turn), strict=True))
 
     def _value(self, joint: Joint) -> dict[str, JointValue]:
         if joint.kind is JointKind.P:

@@ -71,14 +71,11 @@ def plan(mechanism: Mechanism) -> Plan:
     placing = _Placement(mechanism, pin_of, directed)
     placing.run(order)
     known = placing.known
-    for link, ends in pairs.items():
-        for end in ends:
-            if pin_of[link, end] not in known:
-                placing.free(pin_of[link, end])
-    for joint in struts:
-        for link, name in ((joint.first, joint.at[0]), (joint.second, joint.at[1])):
-            if pin_of[link, name] not in known:
-                placing.free(pin_of[link, name])
+    rest = [(link, end) for link, ends in pairs.items() for end in ends]
+    rest += [end for j in struts for end in ((j.first, j.at[0]), (j.second, j.at[1]))]
+    for end in rest:
+        if pin_of[end] not in known:
+            placing.free(pin_of[end])
     pins = sorted(placing.free_pins, key=list(dict.fromkeys(pin_of.values())).index)
     free_pins = {pin: (f"{pin.name}x", f"{pin.name}y") for pin in pins}
     names: dict[str, None] = {}
@@ -149,7 +146,7 @@ def _parallel_groups(mechanism: Mechanism, struts: set[str]) -> dict[str, str]:
             graph.add_edge(joint.first, joint.second)
     order = {link.name: i for i, link in enumerate(mechanism.links)}
     order[mechanism.ground] = -1
-    heads = {}
+    heads: dict[str, str] = {}
     for members in networkx.connected_components(graph):
         heads |= dict.fromkeys(members, min(members, key=order.__getitem__))
     return heads
@@ -189,8 +186,7 @@ def _traced(mechanism: Mechanism, link: str) -> set[str]:
 
 
 def _breadth_first(mechanism: Mechanism) -> list[str]:
-    reached = [mechanism.ground, *(b for _, b in networkx.bfs_edges(mechanism.graph, mechanism.ground))]
-    return reached
+    return [mechanism.ground, *(b for _, b in networkx.bfs_edges(mechanism.graph, mechanism.ground))]
 
 
 class _Placement:
