@@ -9,6 +9,7 @@ from collections.abc import Sequence
 
 import sympy
 
+from singsym.kinematics.dimensions import Dimensions
 from singsym.mechanism.model import Joint, JointKind, Mechanism, Space
 
 Vector = tuple[sympy.Expr, ...]
@@ -19,15 +20,17 @@ UNITS: tuple[Vector, ...] = IDENTITY
 
 
 def tidy(expression: sympy.Expr) -> sympy.Expr:
-    """The same number, with no root in a denominator and common factors cancelled.
+    """The same number expanded, common factors of parameters cancelled, no root in a denominator.
 
     >>> tidy(1 / sympy.sqrt(3))
     sqrt(3)/3
     """
     expanded = sympy.expand(expression)
-    if expanded.is_Rational:
+    if expanded.is_Rational or expanded.has(sympy.sin, sympy.cos, sympy.tan):
         return expanded
-    return sympy.expand(sympy.radsimp(sympy.cancel(expanded)))
+    if expanded.free_symbols:
+        expanded = sympy.cancel(expanded)
+    return sympy.expand(sympy.radsimp(expanded))
 
 
 def is_zero(expression: sympy.Expr) -> bool:
@@ -45,7 +48,7 @@ def is_zero(expression: sympy.Expr) -> bool:
         return all(is_zero(coefficient) for coefficient in polynomial.coeffs())
     if abs(expanded.evalf(40)) > sympy.Rational(1, 10**30):
         return False
-    return bool(expanded.equals(0))
+    return Dimensions.of_expressions((expanded,)).is_zero(expanded)
 
 
 def plus(a: Vector, b: Vector) -> Vector:
