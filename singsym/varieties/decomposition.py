@@ -258,7 +258,9 @@ def _by_factors(system: _System, factors: Sequence[Polynomial]) -> tuple[Compone
 def _by_basis(system: _System) -> tuple[Component, ...]:
     ideal = Ideal(system.ring, system.equations)
     basis = ideal.groebner_basis()
-    if basis and basis[0].is_constant:
+    if not basis:
+        return (Component(ideal, True, len(system.ring.names), True),)
+    if basis[0].is_constant:
         return ()
     dimension = len(independent_variables(leading_exponents(basis), len(system.ring.names)))
     if dimension < system.least or any(ideal.contains(p) for p in system.nonzero):

@@ -68,7 +68,7 @@ def _smallest_cover(supports: list[frozenset[int]]) -> frozenset[int]:
         if not left:
             best = taken if len(taken) < len(best) else best
         elif len(taken) + 1 < len(best):
-            for i in sorted(min(left, key=lambda s: len(s))):
+            for i in sorted(sorted(left, key=len)[0]):
                 search([s for s in left if i not in s], taken | {i})
 
     search(supports, frozenset())
