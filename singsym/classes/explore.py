@@ -6,8 +6,8 @@ det L_I or of det L_O (the Proposition of section 2.3), so the search starts wit
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 from singsym.classes.strata import Ground, RankProblem, Stratum, stratum
 from singsym.classes.work import Runner
@@ -29,6 +29,7 @@ class Branch:
     equations: the loop equations; path: the factors and minors that vanish there besides.
     feasible: the exclusions and inequalities of the feasible set Omega (its equations are not used).
     covered: matrices whose loci of lower rank in this branch are searched by another one.
+    first_loci: readable equations of the loci of L_I and L_O of full rank, for the whole space only.
     seconds, memory_mb: the budget of the decomposition.
     """
 
@@ -37,6 +38,7 @@ class Branch:
     equations: Equations
     path: Equations = ()
     covered: tuple[str, ...] = ()
+    first_loci: Mapping[str, tuple[Equations, ...]] = field(default_factory=dict)
     seconds: float | None = None
     memory_mb: int | None = None
 
@@ -164,13 +166,14 @@ def _children(branch: Branch, part: Stratum, visited: set[frozenset[Polynomial]]
             continue
         regular = defects.k_I == 0 and defects.k_O == 0
         covered = ("L_I",) if regular and name == "L_O" else ()
-        for locus in part.loci[name]:
-            for equations in split_product(locus):
-                path = tuple(dict.fromkeys((*branch.path, *equations)))
-                if frozenset(path) in visited:
-                    continue
-                visited.add(frozenset(path))
-                fresh.append(replace(branch, path=path, covered=covered))
+        known = branch.first_loci.get(name) if regular else None
+        alternatives = known or [e for locus in part.loci[name] for e in split_product(locus)]
+        for equations in alternatives:
+            path = tuple(dict.fromkeys((*branch.path, *equations)))
+            if frozenset(path) in visited:
+                continue
+            visited.add(frozenset(path))
+            fresh.append(replace(branch, path=path, covered=covered))
     return fresh
 
 

@@ -67,6 +67,11 @@ class Stratum:
     loci: Mapping[str, tuple[tuple[Polynomial, ...], ...]]
 
     @property
+    def dimension(self) -> int:
+        """The complex dimension."""
+        return self.ideal.dimension
+
+    @property
     def degenerate(self) -> tuple[tuple[Polynomial, ...], ...]:
         """All loci of all matrices, without repetitions."""
         seen = {tuple(locus): None for name in sorted(self.loci) for locus in self.loci[name]}

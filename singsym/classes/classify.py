@@ -1,0 +1,314 @@
+"""The singularity set of a mechanism and its division into the 21 classes.
+
+Source: Zlatanov, Fenton, Benhabib (1998), section 3: conditions (4), (5) and the six steps of 3.2.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from concurrent.futures import Executor
+from contextlib import ExitStack
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from singsym.classes.explore import Branch, Exploration, search
+from singsym.classes.realise import Counted, CurveTask, Names, RealTask, count, realise
+from singsym.classes.result import Classification, ClassResult, Equations, Locus, Piece, SpacePiece
+from singsym.classes.steps import excluded_in, found_in
+from singsym.classes.strata import RankProblem
+from singsym.classes.types import SingularityClass, SingularityType, feasible_classes
+from singsym.classes.work import Cache, Runner, cache_folder, processes
+from singsym.elimination import engines
+from singsym.elimination.conditions import Conditions, Factor, conditions, polynomial_latex
+from singsym.elimination.verdict import Verdict, weakest
+from singsym.kinematics.reduction import reduce
+from singsym.kinematics.velocity import VelocityEquation, velocity_equation
+from singsym.mechanism.model import Mechanism
+from singsym.polynomials import Polynomial
+from singsym.varieties.real.witness import RealSystem
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What each task of a classification may use: seconds and megabytes, None without limit."""
+
+    seconds: float | None = None
+    memory_mb: int | None = None
+
+
+def classify(
+    mechanism: Mechanism,
+    *,
+    formulation: str = "auto",
+    workers: int = 1,
+    executor: Executor | None = None,
+    limits: Limits | None = None,
+    cache: bool = True,
+) -> Classification:
+    """Find the singularity set of a mechanism and all its classes, each with proof, witness or doubt.
+
+    formulation: see `kinematics.formulations.place`; workers: processes, unless an `executor` is given
+    (any of `concurrent.futures`, also Dask's or MPI's); limits: budget of each task; cache: use the cache on
+    disk, so that an interrupted run goes on where it was.
+    Raises `MechanismError` for a mechanism that cannot be placed.
+
+    >>> from singsym.mechanism import load
+    >>> result = classify(load("slider-crank"), cache=False)
+    >>> [(c.singularity_class, c.points) for c in result.classes if c.verdict.is_yes]
+    [(1 (RI, IO), 2)]
+    """
+    return classify_equation(
+        mechanism,
+        velocity_equation(mechanism, formulation),
+        workers=workers,
+        executor=executor,
+        limits=limits,
+        cache=cache,
+    )
+
+
+def classify_equation(
+    mechanism: Mechanism | None,
+    equation: VelocityEquation,
+    *,
+    workers: int = 1,
+    executor: Executor | None = None,
+    limits: Limits | None = None,
+    cache: bool = True,
+) -> Classification:
+    """The same for a velocity equation, such as one of the user's own; see `classify`."""
+    started = time.monotonic()
+    with ExitStack() as stack:
+        if executor is None:
+            executor = processes(workers)
+            if executor is not None:
+                stack.enter_context(executor)
+        runner = Runner(executor, Cache(cache_folder()) if cache else None)
+        work = _Work(mechanism, conditions(equation, reduce(equation)), runner, limits or Limits())
+        return work.classification(started)
+
+
+@dataclass
+class _Work:
+    """One classification under way."""
+
+    mechanism: Mechanism | None
+    conditions: Conditions
+    runner: Runner
+    limits: Limits
+
+    @property
+    def equation(self) -> VelocityEquation:
+        return self.conditions.equation
+
+    @cached_property
+    def feasible(self) -> RealSystem:
+        space = self.equation.space
+        return RealSystem(space.ring, (), space.exclusions, space.positive, space.nonnegative)
+
+    @cached_property
+    def names(self) -> Names:
+        return Names(self.equation.space.points, self.equation.values)
+
+    def problem(self) -> RankProblem:
+        """The four matrices in blocks."""
+        blocks, constants = {}, {}
+        for name in ("L", "L_I", "L_O", "L_p"):
+            parts = self.conditions.rank_blocks(name)
+            blocks[name], constants[name] = parts.blocks, parts.constant
+        return RankProblem(blocks, constants, self.equation.N, self.equation.n)
+
+    def classification(self, started: float) -> Classification:
+        root = Branch(
+            self.problem(),
+            self.feasible,
+            self.equation.space.equations,
+            seconds=self.limits.seconds,
+            memory_mb=self.limits.memory_mb,
+            first_loci=self._first_loci(),
+        )
+        explored = search(root, self.runner)
+        tasks = [
+            RealTask(found, self.feasible, self.names, self.limits.seconds, self.limits.memory_mb)
+            for found in explored.found
+        ]
+        pieces = self.runner.map(realise, tasks, "real points")
+        loci = self._loci(explored, pieces)
+        classes = self._classes(explored, pieces, loci)
+        return Classification(
+            self.mechanism,
+            self.equation,
+            self.conditions.reduction,
+            self._space(pieces, classes),
+            loci,
+            classes,
+            tuple(name for name in engines.allowed() if engines.has(name)),
+            time.monotonic() - started,
+        )
+
+    def _first_loci(self) -> dict[str, tuple[Equations, ...]]:
+        """The zero sets of (4) and (5) in their readable factors, where they are products."""
+        found = {}
+        for name, label in (("L_I", "4"), ("L_O", "5")):
+            condition = self.conditions[label]
+            if condition.alternatives is not None and not condition.everywhere:
+                found[name] = condition.polynomials
+        return found
+
+    # -- loci ----------------------------------------------------------------------------------------
+
+    def _loci(self, explored: Exploration, pieces: Sequence[Piece]) -> tuple[Locus, ...]:
+        loci = []
+        for label in ("4", "5"):
+            for factor in self.conditions[label].factors:
+                loci.append(self._locus(label, factor, explored, pieces))
+        curves = [i for i, locus in enumerate(loci) if locus.dimension == 1]
+        equations = self.equation.space.equations
+        tasks = [
+            CurveTask((*equations, loci[i].factor), self.limits.seconds, self.limits.memory_mb)
+            for i in curves
+        ]
+        if self.equation.space.nonnegative or self.equation.space.positive:
+            tasks, curves = [], []
+        for i, counted in zip(curves, self.runner.map(count, tasks, "curves"), strict=True):
+            loci[i] = _with_components(loci[i], counted)
+        return tuple(loci)
+
+    def _locus(self, label: str, factor: Factor, explored: Exploration, pieces: Sequence[Piece]) -> Locus:
+        """What the pieces with this factor on their path say of its zero set."""
+        inside = [p for p in pieces if factor.polynomial in p.path and p.dimension is not None]
+        doubts = [reason for branch, reason in explored.unexplored if factor.polynomial in branch.path]
+        doubts += [p.verdict.reason for p in pieces if factor.polynomial in p.path and p.verdict.is_undecided]
+        dimension = max((p.dimension for p in inside if p.dimension is not None), default=-1)
+        verdict = Verdict.yes() if dimension >= 0 else Verdict.no(reason="no real point")
+        if doubts and dimension < self.equation.n - 1:
+            verdict = Verdict.undecided("; ".join(dict.fromkeys(doubts)))
+        points = sum(p.points or 0 for p in inside) if dimension == 0 else None
+        return Locus(
+            label,
+            factor.polynomial,
+            factor.words,
+            factor.latex(),
+            verdict,
+            None if verdict.is_undecided else dimension,
+            points,
+            points,
+        )
+
+    # -- classes -------------------------------------------------------------------------------------
+
+    def _classes(
+        self, explored: Exploration, pieces: Sequence[Piece], loci: Sequence[Locus]
+    ) -> tuple[ClassResult, ...]:
+        occurring = {p.defects.types for p in pieces if p.verdict.is_yes}
+        possible = set(feasible_classes(self.equation.n))
+        results = []
+        for candidate in feasible_classes():
+            if candidate not in possible:
+                reason = f"impossible for n = {self.equation.n}, by the inequalities of the four ranks"
+                results.append(
+                    ClassResult(candidate, Verdict.no(reason=reason), (), None, None, None, (), "")
+                )
+                continue
+            results.append(self._class(candidate, occurring, explored, pieces, loci))
+        return tuple(results)
+
+    def _class(
+        self,
+        candidate: SingularityClass,
+        occurring: set[SingularityType],
+        explored: Exploration,
+        pieces: Sequence[Piece],
+        loci: Sequence[Locus],
+    ) -> ClassResult:
+        own = [p for p in pieces if p.defects.types == candidate.types]
+        present = sorted(
+            (p for p in own if p.verdict.is_yes), key=lambda p: (-(p.dimension or 0), str(p.path))
+        )
+        doubts = [p.verdict.reason for p in own if p.verdict.is_undecided]
+        doubts += [reason for _, reason in explored.unexplored]
+        if present:
+            certainty = weakest(*(p.verdict.certainty for p in present[:1]))
+            verdict = Verdict(Verdict.yes().answer, certainty, reason="; ".join(dict.fromkeys(doubts)))
+            steps: tuple[str, ...] = (found_in(candidate.types),)
+        elif doubts:
+            verdict = Verdict.undecided("; ".join(dict.fromkeys(doubts)))
+            steps = (found_in(candidate.types),)
+        else:
+            ruled_out = [p.verdict.reason for p in own]
+            reason = "; ".join(dict.fromkeys(ruled_out)) or "no stratum of the four ranks has these types"
+            verdict = Verdict.no(reason=reason)
+            steps = (excluded_in(candidate.types, occurring),)
+        dimension = max((p.dimension for p in present if p.dimension is not None), default=None)
+        points = sum(p.points or 0 for p in present) if dimension == 0 and not doubts else None
+        return ClassResult(
+            candidate,
+            verdict,
+            tuple(present),
+            dimension,
+            points,
+            _components(present, loci) if dimension == 1 else points,
+            steps,
+            conditions_latex(present),
+        )
+
+    # -- configuration space ---------------------------------------------------------------------------
+
+    def _space(self, pieces: Sequence[Piece], classes: Sequence[ClassResult]) -> tuple[SpacePiece, ...]:
+        increased = [c for c in classes if SingularityType.IIM in c.types]
+        smooth = "undecided"
+        if all(c.verdict.is_no for c in increased):
+            # lemma: rank L = N means independent loop equations, so a manifold
+            smooth = "yes"
+        found = []
+        for piece in pieces:
+            if piece.path:
+                continue
+            defects = piece.defects
+            remark = ""
+            if defects.delta:
+                remark = f"rank L is {defects.delta} below N in every configuration"
+            elif defects.types:
+                remark = f"every configuration is singular: {defects.types}"
+            found.append(SpacePiece(piece.dimension, smooth, defects, piece.verdict, piece.basis, remark))
+        return tuple(found)
+
+
+def _with_components(locus: Locus, counted: Counted) -> Locus:
+    verdict = locus.verdict
+    if counted.components is None:
+        verdict = replace(verdict, reason=f"components not counted: {counted.reason}")
+    return replace(locus, components=counted.components, verdict=verdict)
+
+
+def _components(pieces: Sequence[Piece], loci: Sequence[Locus]) -> int | None:
+    """Components of a one-dimensional class, each locus counted by itself and closed up."""
+    paths = {p.path for p in pieces if p.dimension == 1}
+    total = 0
+    for path in paths:
+        counted = [locus.components for locus in loci if path == (locus.factor,)]
+        if not counted or counted[0] is None:
+            return None
+        total += counted[0]
+    return total
+
+
+def conditions_latex(pieces: Sequence[Piece]) -> str:
+    """The equations and inequations of a class as LaTeX: the factors on the way to each piece."""
+    lines: dict[str, None] = {}
+    for piece in pieces:
+        equal = [f"{polynomial_latex(p)} = 0" for p in piece.path]
+        unequal = [_nonzero_latex(e) for e in piece.exclusions]
+        lines[r",\; ".join((*equal, *unequal))] = None
+    return r" \quad\text{or}\quad ".join(lines)
+
+
+def _nonzero_latex(exclusion: tuple[Polynomial, ...]) -> str:
+    if len(exclusion) == 1:
+        factors = [p for p, _ in exclusion[0].factors()]
+        if len(factors) > 1:
+            return r",\; ".join(f"{polynomial_latex(p)} \\ne 0" for p in factors)
+        return f"{polynomial_latex(exclusion[0])} \\ne 0"
+    listed = ", ".join(polynomial_latex(p, 6) for p in exclusion)
+    return rf"\left({listed}\right) \ne 0"
