@@ -56,7 +56,7 @@ def _strut_square(limit: Limit, placed: Placement) -> Polynomial | None:
 def _strut_limits(
     limit: Limit, square: Polynomial, mechanism: Mechanism, placed: Placement
 ) -> list[Polynomial]:
-    """low <= length <= high for a positive length: by squares, a negative or zero lower bound says nothing."""
+    """low <= length <= high for a positive length, by squares; a lower bound of zero or less says nothing."""
     found = []
     if limit.low is not None and not sympy.sympify(limit.low).is_nonpositive:
         found.append(square - _value(limit.low, mechanism, placed)[0] ** 2)

@@ -62,7 +62,7 @@ def path(mechanism: Mechanism, link: str) -> tuple[SignedJoint, ...]:
     """The shortest way from the ground to a link.
 
     >>> from singsym.mechanism import load
-    >>> [(joint.name, sign) for joint, sign in path(load("2r"), "forearm")]
+    >>> [(joint.name, sign) for joint, sign in path(load("2r"), "BC")]
     [('A', 1), ('B', 1)]
     """
     nodes = networkx.shortest_path(_bipartite(mechanism), ("link", mechanism.ground), ("link", link))
