@@ -45,7 +45,7 @@ class ConstructibleSet:
         for cell in self.cells:
             if cell.ring != self.ring:
                 raise ValueError(
-                    f"a cell of {cell.ring!r} in a set of {self.ring!r}: convert its polynomials"
+                    f"a cell of {cell.ring!r} in a set of {self.ring!r}: convert it to that ring"
                 )
 
     # -- making ----------------------------------------------------------------------------------

@@ -1,4 +1,4 @@
-"""Decomposition: varieties known in advance, unions put together from primes, and the 2-DOF linkage's curves."""
+"""Decomposition: varieties known in advance, unions of known primes, and the curves of the 2-DOF linkage."""
 
 from fractions import Fraction
 from itertools import combinations
