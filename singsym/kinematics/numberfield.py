@@ -76,6 +76,10 @@ class NumberField:
             root = sympy.sqrt(free)
             if root in self.images:
                 return self.images[root] * Fraction(factor, int(number.base.q))
+            generators = [-c.minimal[0] for c in self.constants if c.name == f"sqrt{-c.minimal[0]}"]
+            found = _express(free, generators, self.order)
+            if found is not None:
+                return _composed(self, found) * Fraction(factor, int(number.base.q))
         raise ValueError(f"the number {number} was not announced: pass it to Dimensions.of as extra")
 
     def inverse(self, polynomial: Polynomial) -> Polynomial:
@@ -135,13 +139,8 @@ def number_field(atoms: Atoms) -> NumberField:
     ]
     empty = NumberField(tuple(constants), order)
     images = {}
-    for d, (inside, factors, ratio) in expressed.items():
-        product = empty.ring.constant(ratio)
-        for g in factors:
-            product = product * empty.ring.gen(f"sqrt{g}")
-        if inside > 1:
-            product = product * _gauss_sum(empty.ring, constants[0].name, inside, order)
-        images[sympy.sqrt(d)] = empty.normal(product)
+    for d, found in expressed.items():
+        images[sympy.sqrt(d)] = _composed(empty, found)
     return NumberField(tuple(constants), order, images)
 
 
@@ -168,6 +167,17 @@ def _express(d: int, generators: list[int], order: int) -> tuple[int, tuple[int,
                     whole *= g
                 return inside, chosen, Fraction(1, isqrt(whole // d))
     return None
+
+
+def _composed(numbers: NumberField, found: tuple[int, tuple[int, ...], Fraction]) -> Polynomial:
+    """The root that `_express` has found, as a polynomial in the constants."""
+    inside, factors, ratio = found
+    image = numbers.ring.constant(ratio)
+    for g in factors:
+        image = image * numbers.ring.gen(f"sqrt{g}")
+    if inside > 1:
+        image = image * _gauss_sum(numbers.ring, numbers.constants[0].name, inside, numbers.order)
+    return numbers.normal(image)
 
 
 def _conductor(d: int) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
@@ -9,9 +10,9 @@ import numpy as np
 import pytest
 import sympy
 
-from singsym.kinematics.formulations import joint
+from singsym.kinematics.formulations import joint, place
 from singsym.kinematics.placement import Placement
-from singsym.mechanism.fileformat import load, loads
+from singsym.mechanism.fileformat import load, loads, read
 from singsym.mechanism.model import JointKind
 from singsym.minors.determinant import determinant
 from singsym.polynomials import Polynomial, PolynomialMatrix
@@ -221,3 +222,21 @@ def test_the_ranks_of_sarrus() -> None:
             assert float(equation.evaluate(point)) == pytest.approx(0, abs=1e-12)
         ranks[angle] = int(np.linalg.matrix_rank(np.array(matrix.evaluate(point), dtype=float), tol=1e-9))
     assert list(ranks.values()) == [3, 5, 4]
+
+
+CHAIN_ON_BALLS = RSSR.replace(
+    "rod = { points = { B = [0, 0, 0], C = [3, 0, 0] } }",
+    """
+rod = { points = { B = [0, 0, 0], E = [2, 0, 0] }, axes = { e = [0, 0, 1] } }
+rod2 = { points = { E = [0, 0, 0], C = [2, 0, 0] }, axes = { e = [0, 0, 1] } }""",
+).replace('D = { axis = "d" }', 'D = { axis = "d" }\nE = { axis = "e" }')
+
+
+def test_what_it_does_not_suit() -> None:
+    """Two hinged links between spherical joints are neither platform nor strut: the natural one."""
+    mechanism = read(tomllib.loads(CHAIN_ON_BALLS))[0]
+    assert joint.suits(load("stewart-gough"))
+    assert not joint.suits(mechanism)
+    with pytest.raises(ValueError, match="'rod' is reached through spherical joints only"):
+        joint.place(mechanism)
+    assert place(mechanism).space.formulation == "natural"

@@ -16,15 +16,16 @@ FORMULATIONS = ("planar", "joint", "natural", "quaternion")
 def place(mechanism: Mechanism, formulation: str = "auto") -> Placement:
     """The mechanism's variables, loop equations, screws and feasible set in a formulation.
 
-    formulation: "planar" (pins as points), "joint" (angles along a tree), "natural" (points and unit vectors),
-        "quaternion" (natural, platforms by quaternions), or "auto": the mechanism's own wish, else planar for
-        planar mechanisms with loops, joint otherwise.
+    formulation: "planar" (pins as points), "joint" (angles along a tree), "natural" (points and unit
+        vectors), "quaternion" (natural, platforms by quaternions), or "auto": the mechanism's own wish, else planar for
+        planar mechanisms with loops, joint otherwise, natural where that does not suit.
     Raises `ValueError` for another name, `MechanismError` where the mechanism cannot be placed.
     """
     chosen = mechanism.formulation if formulation == "auto" else formulation
     if chosen == "auto":
         closed = len(mechanism.joints) >= len(mechanism.links)
-        chosen = "planar" if closed and mechanism.space is Space.PLANAR else "joint"
+        chosen = "joint" if joint.suits(mechanism) else "natural"
+        chosen = "planar" if closed and mechanism.space is Space.PLANAR else chosen
     if chosen not in FORMULATIONS:
         raise ValueError(f"formulation {chosen!r}: expected auto, {', '.join(FORMULATIONS)}")
     if chosen == "planar":

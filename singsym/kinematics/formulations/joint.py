@@ -26,6 +26,7 @@ def suits(mechanism: Mechanism) -> bool:
     If not, the natural formulation takes it.
     """
     mechanism = mechanism.resolved
+    mechanism = mechanism.resolved
     geometry = local.Geometry(mechanism)
     reached = {mechanism.ground, *(child for _, _, child in spanning_steps(mechanism))}
     rods = {link for strut in find_struts(mechanism, geometry) for link in strut.links}
