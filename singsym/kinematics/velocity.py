@@ -5,17 +5,15 @@ Source: Zlatanov, Fenton, Benhabib (1998), (1)-(3); an example is (6).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Literal
-
-import sympy
+from typing import Literal
 
 from singsym.kinematics.formulations import place
 from singsym.kinematics.loops import loops, path
 from singsym.kinematics.placement import ConfigurationSpace, Coordinates, JointValue, Placement
 from singsym.mechanism.model import JointRate, Mechanism, Output, PointVelocity, Space
-from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
+from singsym.polynomials import Polynomial, PolynomialMatrix
 
 Role = Literal["output", "input", "passive"]
 
@@ -188,68 +186,3 @@ def _at(screw: Coordinates, point: Coordinates) -> Coordinates:
         return (w, vx - w * point[1], vy + w * point[0])
     turned = _cross(screw[:3], point)
     return (*screw[:3], *(v + t for v, t in zip(screw[3:], turned, strict=True)))
-
-
-def from_sympy(
-    L: sympy.MatrixBase,
-    columns: Sequence[tuple[str, Role]],
-    equations: Iterable[Any],
-    *,
-    variables: Sequence[str] = (),
-    parameters: Sequence[str] = (),
-    exclusions: Iterable[Sequence[Any]] = (),
-    positive: Iterable[Any] = (),
-    points: Mapping[str, Sequence[Any]] | None = None,
-    n: int | None = None,
-) -> VelocityEquation:
-    """A velocity equation of one's own: L and the loop equations as SymPy objects.
-
-    L: N rows, N + n columns, polynomial in the variables over the rationals; columns: (label, role) each.
-    equations: expressions that vanish; exclusions: groups that must not vanish together; positive: p > 0.
-    variables: in the order wanted, by default all symbols, sorted.
-    Raises `ValueError` where shapes do not fit or an entry is no polynomial.
-
-    >>> c, s = sympy.symbols("c s")
-    >>> from_sympy(sympy.Matrix([[1, -s]]), [("T", "output"), ("A", "input")], [c**2 + s**2 - 1])
-    VelocityEquation(1x2, N=1, n=1)
-    """
-    if L.shape[1] != len(columns):
-        raise ValueError(f"L has {L.shape[1]} columns, but {len(columns)} labels were given: one for each")
-    wrong = sorted({str(role) for _, role in columns} - {"output", "input", "passive"})
-    if wrong:
-        raise ValueError(f"roles {wrong}: expected output, input or passive")
-    inputs = sum(role == "input" for _, role in columns)
-    outputs = sum(role == "output" for _, role in columns)
-    mobility = inputs if n is None else n
-    if inputs != mobility or outputs != mobility:
-        raise ValueError(f"{inputs} inputs and {outputs} outputs, expected {mobility} of each (the mobility)")
-    equations = [sympy.sympify(e, strict=True) for e in equations]
-    groups = [[sympy.sympify(e, strict=True) for e in group] for group in exclusions]
-    signs = [sympy.sympify(e, strict=True) for e in positive]
-    symbols = set().union(
-        *(e.free_symbols for e in (*L, *equations, *signs, *(e for g in groups for e in g)))
-    )
-    names = tuple(variables) or tuple(sorted({s.name for s in symbols} - set(parameters)))
-    ring = Ring((*names, *parameters))
-    read = ring.from_sympy
-    space = ConfigurationSpace(
-        ring,
-        tuple(read(e) for e in equations),
-        tuple(tuple(read(e) for e in g) for g in groups),
-        tuple(read(e) for e in signs),
-        parameters=tuple(parameters),
-        points={name: tuple(read(sympy.sympify(x)) for x in xs) for name, xs in (points or {}).items()},
-        formulation="given",
-    )
-    matrix = PolynomialMatrix.of(
-        ring, [[read(L[i, j]) for j in range(L.shape[1])] for i in range(L.shape[0])]
-    )
-    joints = len(columns) - outputs
-    return VelocityEquation(
-        space,
-        matrix,
-        tuple(Column(label, role) for label, role in columns),
-        tuple(f"row {i}" for i in range(1, L.shape[0] + 1)),
-        joints,
-        mobility,
-    )
