@@ -17,8 +17,8 @@ def place(mechanism: Mechanism, formulation: str = "auto") -> Placement:
     """The mechanism's variables, loop equations, screws and feasible set in a formulation.
 
     formulation: "planar" (pins as points), "joint" (angles along a tree), "natural" (points and unit
-        vectors), "quaternion" (natural, platforms by quaternions), or "auto": the mechanism's own wish, else planar for
-        planar mechanisms with loops, joint otherwise, natural where that does not suit.
+        vectors), "quaternion" (natural, platforms by quaternions), or "auto": the mechanism's own wish, else
+        planar for planar mechanisms with loops, joint otherwise, natural where that does not suit.
     Raises `ValueError` for another name, `MechanismError` where the mechanism cannot be placed.
     """
     chosen = mechanism.formulation if formulation == "auto" else formulation
