@@ -1,6 +1,6 @@
 """Real curves: their connected components, singular points and ends, proven, with polylines for drawing.
 
-Source: critical points meet every component (see curve_critical.py); proven tubes join them into loops and edges
+Source: critical points meet every component (curve_critical.py); proven tubes join them into loops and edges
 (curve_paths.py); singular points are analysed in curve_singular.py and curve_branches.py.
 """
 
@@ -55,7 +55,7 @@ class RealCurve:
     """The real points of a curve.
 
     components: the connected components other than isolated points, in no particular order.
-    graph: a networkx multigraph: nodes are singular points, ends at infinity and one point on each smooth loop;
+    graph: a networkx multigraph: nodes are singular points, ends at infinity and one for each smooth loop;
     an edge is an arc, with attributes `polyline` and `component`.
     verdict: yes ("certified") if the topology is proven; else undecided with the reason, and what is there
     is a drawing only.
@@ -120,7 +120,7 @@ def real_curve(
     >>> real_curve([x**3 - x - y**2])
     RealCurve(2 components, 1 of them closed)
     """
-    generators = tuple(getattr(system, "generators", system))
+    generators = system.generators if isinstance(system, Ideal) else tuple(system)
     if not generators:
         raise ValueError("a curve is expected, not the whole space: no equations were given")
     ring: Ring = generators[0].ring
@@ -169,7 +169,8 @@ def _result(ring: Ring, proof: Assembly, choice: CurveEquations, drawing: bool) 
         graph.add_node(("singular", k), point=star.point)
     for k, edge in enumerate(proof.edges):
         graph.add_edge(*edge.ends, key=k, polyline=edge.chain.points[:, kept])
-    components, isolated = [], []
+    components: list[CurveComponent] = []
+    isolated: list[RealPoint] = []
     for number, nodes in enumerate(nx.connected_components(graph)):
         arcs = list(graph.subgraph(nodes).edges(data=True))
         points = tuple(proof.stars[k].point for kind, k in sorted(nodes) if kind == "singular")

@@ -6,10 +6,9 @@ Source: S. M. Rump, Fast and parallel interval arithmetic, BIT 39 (1999) 534-554
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -119,11 +118,10 @@ class PolynomialMap:
 
 @dataclass(frozen=True, eq=False)
 class System:
-    """Polynomials with first and second derivatives as numerical maps, each scaled to coefficients of size 1."""
+    """Polynomials, scaled to coefficients of size 1, with their derivatives as numerical maps."""
 
     ring: Ring
     equations: tuple[Polynomial, ...]
-    _cache: dict[str, Any] = field(default_factory=dict, repr=False)
 
     @property
     def shape(self) -> tuple[int, int]:

@@ -1,6 +1,6 @@
 """The graph of a real curve: stars, ends and critical points as marks, proven chains as edges and loops.
 
-Source: see curve_paths.py; a mark lies on exactly one chain, decided by tubes, so that no component counts twice.
+Source: curve_paths.py; a mark lies on exactly one chain, decided by tubes, so that no component counts twice.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy as np
 from singsym.elimination.budget import Budget, Undecided
 from singsym.elimination.progress import report
 from singsym.polynomials import Polynomial
-from singsym.varieties.real.curve_arithmetic import Balls, System
+from singsym.varieties.real.curve_arithmetic import Array, Balls, System
 from singsym.varieties.real.curve_critical import Samples, as_balls
 from singsym.varieties.real.curve_paths import Chain, chains, contained, pair_tracks, prove_chains
 from singsym.varieties.real.curve_singular import Star
@@ -124,7 +124,7 @@ def _smooth_points(system: System, points: Sequence[RealPoint], stars: Sequence[
         if star.chart is not None:
             inside |= star.chart.holds(balls) if len(balls.mid) else inside
     regular = is_regular(system, balls)
-    for k in np.flatnonzero(~regular & ~inside):
+    for k in map(int, np.flatnonzero(~regular & ~inside)):
         if not any(s.chart is None and s.point.coincides(points[k]) for s in stars):
             raise Undecided(f"the curve is too close to singular at {points[k]!r}")
     keep = regular & ~inside
@@ -186,7 +186,7 @@ def _edges(marked: _Marked, found: Sequence[Chain]) -> list[Edge]:
 
 
 def count_without(proof: Assembly, removed: Sequence[RealPoint], isolated: Sequence[RealPoint]) -> int:
-    """How many components are left without some points of the curve; `isolated` ones count where they are kept."""
+    """How many components are left without some points of the curve; `isolated` ones count where kept."""
     distinct: list[RealPoint] = []
     for point in removed:
         if not any(point.coincides(p) for p in distinct):
@@ -200,9 +200,7 @@ def count_without(proof: Assembly, removed: Sequence[RealPoint], isolated: Seque
         else:
             cuts[_edge_of(proof, point)] += 1
     graph = nx.Graph()
-    graph.add_nodes_from(
-        ("singular", k) for k in range(len(proof.stars)) if ("singular", k) not in gone
-    )
+    graph.add_nodes_from(("singular", k) for k in range(len(proof.stars)) if ("singular", k) not in gone)
     for k, (edge, count) in enumerate(zip(proof.edges, cuts, strict=True)):
         pieces = [(f"piece {k}", i) for i in range(count + 1)]
         graph.add_nodes_from(pieces)
@@ -222,12 +220,17 @@ def _edge_of(proof: Assembly, point: RealPoint) -> int:
         return int(np.flatnonzero(inside[0])[0])
     for k, star in enumerate(proof.stars):
         if star.chart is not None and star.chart.holds(ball)[0]:
-            gate = star.gates.mid
-            for j, edge in enumerate(proof.edges):
-                for end, vertex in zip(edge.ends, (edge.chain.points[0], edge.chain.points[-1]), strict=True):
-                    near = np.flatnonzero((gate == vertex).all(axis=1)) if end == ("singular", k) else []
-                    if len(near) and star.chart.in_quadrants(ball, star.chart.signs(star.gates)[near[0]]).all():
-                        return j
+            for gate, signs in zip(star.gates.mid, star.chart.signs(star.gates), strict=True):
+                if star.chart.in_quadrants(ball, signs[None]).all():
+                    return _edge_at(proof, ("singular", k), gate)
     raise Undecided(f"the arc of {point!r} is not proven")
 
 
+def _edge_at(proof: Assembly, node: Node, gate: Array) -> int:
+    """The edge that begins or ends at a gate of a node."""
+    return next(
+        j
+        for j, edge in enumerate(proof.edges)
+        for end, vertex in zip(edge.ends, edge.chain.points[[0, -1]], strict=True)
+        if end == node and (vertex == gate).all()
+    )

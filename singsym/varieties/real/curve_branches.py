@@ -1,16 +1,17 @@
-"""The half-branches of a real curve at any isolated singular point, by counting fibres of the distance from a point.
+"""The half-branches of a real curve at any singular point, by counting fibres of the distance from a point.
 
-Source: fibres below, at and above a critical level, as for plane curves: H. Hong, An efficient method for analyzing
-the topology of plane real algebraic curves, Math. Comput. Simulation 42 (1996) 571-582.
+Source: fibres below, at and above a critical level, as for plane curves: H. Hong, An efficient method for
+analyzing the topology of plane real algebraic curves, Math. Comput. Simulation 42 (1996) 571-582.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from typing import cast
 
 import numpy as np
-from flint import arb, fmpq, fmpq_poly, fmpz_poly
+from flint import acb, arb, fmpq_poly
 
 from singsym.elimination.budget import Budget, Undecided
 from singsym.polynomials import Polynomial, Ring
@@ -19,7 +20,7 @@ from singsym.varieties.real.curve_critical import as_balls
 from singsym.varieties.real.curve_paths import Chain, contained, prove_chains
 from singsym.varieties.real.curve_singular import Star
 from singsym.varieties.real.curve_tracking import Marks, kernels, track
-from singsym.varieties.real.curve_tubes import frames
+from singsym.varieties.real.curve_tubes import frames, inverses
 from singsym.varieties.real.intervals import at_precision, evaluate
 from singsym.varieties.real.points import RealPoint
 from singsym.varieties.real.zerodim import real_points
@@ -38,8 +39,8 @@ def branch_star(
     """The star of a singular point; `critical` are all critical points of `objective` on the curve.
 
     Lemma: let no other critical point have its level in [c-, c+], and let the level of the point hold k other
-    points of the curve.  Then k arcs run from c- to c+, and all others between these levels end at the point: once
-    k arcs are proven to pass, the remaining points at c- and c+ lie on its half-branches.
+    points of the curve.  Then k arcs run from c- to c+, and all others between these levels end at the point:
+    once k arcs are proven to pass, the remaining points at c- and c+ lie on its half-branches.
     Raises `Undecided` where another critical point has the same level, or the arcs cannot be proven.
     """
     passing = len(_fibre_through(equations, objective, point, budget)) - 1
@@ -101,7 +102,7 @@ def _fibre_through(
 def _level_polynomial(objective: Polynomial, point: RealPoint) -> Polynomial:
     """The minimal polynomial of the objective's value at the point, applied to the objective.
 
-    Values that differ by less than 2^-100 are refused: roots of the polynomial must be told apart by 128 bits.
+    Conjugate values nearer than 2^-100 are refused: 128 bits must tell them apart.
     """
     ring = Ring(("t", "x"))
     t, x = ring.gens
@@ -122,18 +123,15 @@ def _level_polynomial(objective: Polynomial, point: RealPoint) -> Polynomial:
         raise Undecided("the level of a singular point could not be told from its conjugates")
     coefficients = [factors[0].coefficient("x", k).constant for k in range(factors[0].degree("x") + 1)]
     with at_precision(512):
-        roots = [r for r, _ in _polynomial(coefficients).complex_roots() if r.imag == 0]
-        near = [r for r in roots if abs(r.real - own) < arb(2) ** -100]
+        found = cast("list[tuple[acb, int]]", fmpq_poly(coefficients).numer().complex_roots())
+        roots = [r.real for r, _ in found if r.imag == 0]
+        near = [r for r in roots if abs(r - own) < arb(2) ** -100]
     if len(near) != 1:
         raise Undecided("the level of a singular point is too close to a conjugate of it")
     result = objective.ring.zero
     for c in reversed(coefficients):
         result = result * objective + c
     return result
-
-
-def _polynomial(coefficients: Sequence[fmpq]) -> fmpz_poly:
-    return fmpq_poly(list(coefficients)).numer()
 
 
 def _count(
@@ -170,7 +168,8 @@ def _count(
 def _goes_up(system: System, objective: Polynomial, chain: Chain, ends: Balls) -> bool:
     """Whether the objective surely increases along a proven chain at both its ends.
 
-    Lemma: the kernel of the Jacobian is within `tilt` of the computed tangent, and the arc of a tube moves along its step.
+    Lemma: the kernel of the Jacobian is within `tilt` of the computed tangent, and the arc of a tube moves
+    along its step.
     """
     if chain.tubes is None:
         return False
@@ -178,7 +177,7 @@ def _goes_up(system: System, objective: Polynomial, chain: Chain, ends: Balls) -
     along = kernels(system, ends.mid)
     along = along * np.sign((along * step).sum(axis=1))[:, None]
     frame = frames(along)
-    precondition = Balls.exact(np.linalg.pinv(system.jacobian(ends.mid) @ frame))
+    precondition = Balls.exact(inverses(system.jacobian(ends.mid) @ frame))
     slopes = precondition.matmul(system.jacobian_balls(ends))
     defect = (slopes.matmul(Balls.exact(frame)) - Balls.exact(np.eye(frame.shape[2])[None])).magnitude()
     moved = slopes.matmul(Balls.exact(along[:, :, None])).magnitude().max(axis=(1, 2), initial=0.0)
@@ -193,7 +192,7 @@ def _goes_up(system: System, objective: Polynomial, chain: Chain, ends: Balls) -
 
 
 def _inward(system: System, objective: Polynomial, points: Array, lower: int) -> Array:
-    """Unit tangents at the fibre points, into the slab: up at the first `lower` of them, down at the others."""
+    """Unit tangents at the fibre points, into the slab: up at the first `lower`, down at the others."""
     if not len(points):
         return points
     directions = kernels(system, points)

@@ -1,7 +1,7 @@
 """Points that meet every connected component of a real curve, the singular points among them, and the ends.
 
-Source: critical points of a function on the smooth part, P. Aubry, F. Rouillier, M. Safey El Din, Real solving for
-positive dimensional systems, J. Symb. Comput. 34 (2002) 543-560; here with the determinant split into factors.
+Source: P. Aubry, F. Rouillier, M. Safey El Din, Real solving for positive dimensional systems, J. Symb.
+Comput. 34 (2002) 543-560; here with the determinant split into factors.
 """
 
 from __future__ import annotations
@@ -42,9 +42,9 @@ class Samples:
 def sample_points(equations: Sequence[Polynomial], seed: int, budget: Budget) -> Samples | None:
     """Samples of V(equations); `None` where every attempt meets infinitely many critical points.
 
-    Lemma: a function that is bounded below and attains its minimum on a component is critical there.  A linear
-    form does on a bounded curve, the distance from a point on any.  Where the system is square (n-1
-    equations), finitely many complex critical points prove that it is radical and of dimension 1 or empty.
+    Lemma: where a function attains its minimum on a component it is critical.  A linear form does on a
+    bounded curve, the distance from a point on any.  Where the system is square (n-1 equations), finitely
+    many complex critical points prove that it is radical and of dimension 1 or empty.
     """
     ring = equations[0].ring
     rng = random.Random(seed)
@@ -62,7 +62,7 @@ def sample_points(equations: Sequence[Polynomial], seed: int, budget: Budget) ->
 def distance_samples(
     equations: Sequence[Polynomial], near: Sequence[float], rng: random.Random, budget: Budget
 ) -> Samples:
-    """Samples by the distance from a random point near another; raises `Undecided` where they are not isolated."""
+    """Samples by the distance from a random point near another; raises `Undecided` if not isolated."""
     objective = distance_from(equations[0].ring, rng, near)
     points = _critical_points(equations, gradient_rows(equations), objective, rng, budget)
     if points is None:
@@ -80,7 +80,7 @@ def _with_ends(
 
 
 def distance_from(ring: Ring, rng: random.Random, near: Sequence[float] = ()) -> Polynomial:
-    """The squared distance from a random rational point (near one, if given), the ring's constants left out."""
+    """The squared distance from a random rational point (near one, if given), constants left out."""
     constants = {c.name for c in ring.constants}
     total = ring.zero
     for k, name in enumerate(ring.names):
@@ -160,7 +160,7 @@ def _combined(rows: Sequence[Row], count: int, rng: random.Random) -> tuple[Row,
 def is_bounded(equations: Sequence[Polynomial]) -> bool:
     """Whether the real zeros are proven bounded: the quadrics among the equations say so.
 
-    Lemma: where a nonnegative combination of quadrics has a positive definite leading form, its zeros are bounded.
+    Lemma: where a sum of quadrics has a positive definite leading form, its zeros are bounded.
     """
     ring = equations[0].ring
     size = len(ring.names)

@@ -1,7 +1,7 @@
 """Equations of a curve fit for tracking: reduced, of dimension 1 at every point, isolated points apart.
 
-Source: Krull's height theorem and the unmixedness of complete intersections (Eisenbud, Commutative Algebra, 18.14);
-everything else through the decomposition into components.
+Source: Krull's height theorem and the unmixedness of complete intersections (Eisenbud, Commutative Algebra,
+18.14); everything else through the decomposition into components.
 """
 
 from __future__ import annotations
@@ -70,7 +70,9 @@ def candidates(ring: Ring, generators: tuple[Polynomial, ...], budget: Budget) -
 
 def _refuse(dimension: int, constants: int) -> None:
     what = f"dimension {dimension}" + (" with its constants as variables" if constants else "")
-    raise ValueError(f"a curve (dimension 1) is expected, the system has complex {what}: add or remove equations")
+    raise ValueError(
+        f"a curve (dimension 1) is expected, the system has complex {what}: add or remove equations"
+    )
 
 
 def _isolated(

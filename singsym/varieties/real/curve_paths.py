@@ -6,6 +6,7 @@ of exactly one arc.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -56,7 +57,8 @@ def chains(marks: Marks, tracks: dict[int, Track]) -> list[Chain]:
     for start in [*ends, *tracks]:
         if start in used:
             continue
-        pieces, names, half = [], [int(marks.owner[start])], start
+        pieces: list[Array] = []
+        names, half = [int(marks.owner[start])], start
         while True:
             arc = tracks[half]
             used.update((half, arc.end))
@@ -84,9 +86,7 @@ def prove_chains(system: System, found: list[Chain], budget: Budget) -> list[Cha
         count = sum(int(b.sum()) for b in bad)
         report("curve", "segments still to prove", done=count)
         if not count:
-            return [
-                Chain(p, c.marks, c.closed, t) for p, c, t in zip(polylines, found, known, strict=True)
-            ]
+            return [Chain(p, c.marks, c.closed, t) for p, c, t in zip(polylines, found, known, strict=True)]
         if round_ == _HALVINGS - 1 or count > _SEGMENTS:
             break
         polylines, known = _halve(system, polylines, known, bad)
@@ -145,7 +145,7 @@ def _halve(
     return new_lines, new_known
 
 
-def contained(found: list[Chain], points: Balls) -> tuple[np.ndarray, np.ndarray]:
+def contained(found: Sequence[Chain], points: Balls) -> tuple[np.ndarray, np.ndarray]:
     """For each ball and chain: is the exact point surely on the chain, surely not on it."""
     inside = np.zeros((len(points.mid), len(found)), dtype=bool)
     outside = np.ones_like(inside)

@@ -1,8 +1,7 @@
 """How a real curve looks near a singular point: how many half-branches leave it, and one gate on each.
 
-Source: Lyapunov-Schmidt reduction and the Morse lemma with interval bounds for nodes; for all others the fibres of
-the distance function below, at and above the point, as in H. Hong, An efficient method for analyzing the
-topology of plane real algebraic curves, Math. Comput. Simulation 42 (1996) 571-582.
+Source: Lyapunov-Schmidt reduction and the Morse lemma (M. Golubitsky, D. Schaeffer, Singularities and Groups
+in Bifurcation Theory I, Springer 1985, chs. I, II), with interval bounds.
 """
 
 from __future__ import annotations
@@ -15,7 +14,7 @@ from singsym.varieties.real.curve_arithmetic import Array, Balls, System
 from singsym.varieties.real.curve_tracking import newton
 from singsym.varieties.real.points import RealPoint
 
-#: a point of the curve this near to a gate of a node, in units of the size of the coordinates, is on its branch
+#: a point of the curve this near to a gate of a node (relative to the coordinates) is on its branch
 GATE = 1e-9
 
 
@@ -24,8 +23,8 @@ class Star:
     """A singular point with the half-branches of the curve that end there.
 
     gates: a point on each half-branch (G, n) and the error bounds; `outward` the directions away from the
-    point.  `exact` gates are points of the curve within the ball; others are balls in which every point of the
-    curve lies on the half-branch.  `chart` bounds a neighbourhood in which there is nothing else.
+    point.  `exact` gates are points of the curve within the ball; others are balls in which every point of
+    the curve lies on the half-branch.  `chart` bounds a neighbourhood in which there is nothing else.
     """
 
     point: RealPoint
@@ -43,7 +42,7 @@ class Star:
 
 @dataclass(frozen=True, eq=False)
 class Chart:
-    """{center + plane a + across w : |inverse a|_1 <= size, |w| <= height}, which holds a star and nothing else."""
+    """{center + plane a + across w : |inverse a|_1 <= size, |w| <= height}: a star and nothing else."""
 
     center: Array
     plane: Array
@@ -81,9 +80,9 @@ class Chart:
 def node(system: System, point: RealPoint, ball: Balls) -> Star | None:
     """The star of an ordinary double point of a square system (n-1 equations), or `None`.
 
-    `ball` encloses the point, at which the Jacobian is known to have rank below n-1.  Lemma: where the Jacobian
-    has rank n-2 and the Hessian form of the reduced equation stays within 1/10 of diag(1, -1) (of 1) on a
-    box, the zeros there are the point and 4 arcs, one in each quadrant of |b1| = |b2| (the point alone).
+    `ball` encloses the point, at which the Jacobian is known to have rank below n-1.  Lemma: where it has
+    rank n-2 and the Hessian form of the reduced equation stays within 1/10 of diag(1, -1) (of 1) on a box,
+    the zeros there are the point and 4 arcs, one in each quadrant, near |b1| = |b2| (the point alone).
     """
     size, count = len(ball.mid[0]), len(system.equations)
     if count != size - 1:
@@ -149,10 +148,14 @@ class _Reduced:
         if not defect < 0.5:
             return None
         # the inverse of 1 + D with |D| <= defect differs from 1 by at most defect / (1 - defect)
-        inverse = Balls(np.eye(size), np.full((size, size), 1.001 * defect / (1 - defect))).matmul(precondition)
+        inverse = Balls(np.eye(size), np.full((size, size), 1.001 * defect / (1 - defect))).matmul(
+            precondition
+        )
         steep = -inverse.matmul(kept.matmul(exact(self.plane)))
         tangents = exact(self.plane) + exact(self.across).matmul(steep)
-        multipliers = exact(self.last.T) - last.matmul(exact(self.across)).matmul(inverse).matmul(exact(self.kept.T))
+        multipliers = exact(self.last.T) - last.matmul(exact(self.across)).matmul(inverse).matmul(
+            exact(self.kept.T)
+        )
         return box, multipliers, tangents, float(steep.magnitude().sum(axis=1).max(initial=0.0))
 
     def hessian(self, flat: float, height: float) -> Balls | None:
@@ -184,7 +187,8 @@ class _Reduced:
         if not final.magnitude().max() < 0.1:
             return None
         blur = 1.01 * float(self.ball.rad[0].max()) + 1e-15
-        return Chart(self.ball.mid[0], self.plane, self.across, np.linalg.inv(turned), extent, height, blur)
+        inverse = np.asarray(np.linalg.inv(turned), dtype=np.float64)
+        return Chart(self.ball.mid[0], self.plane, self.across, inverse, extent, height, blur)
 
 
 def _with_gates(system: System, point: RealPoint, chart: Chart, turned: Array) -> Star | None:

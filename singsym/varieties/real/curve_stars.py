@@ -17,7 +17,7 @@ from singsym.varieties.real.curve_branches import branch_star
 from singsym.varieties.real.curve_critical import Samples, as_balls, distance_samples, singular_points
 from singsym.varieties.real.curve_singular import Star, node
 from singsym.varieties.real.curve_tracking import kernels
-from singsym.varieties.real.curve_tubes import frames
+from singsym.varieties.real.curve_tubes import frames, inverses
 from singsym.varieties.real.points import RealPoint
 
 _SEEDS = 3
@@ -71,7 +71,7 @@ def is_regular(system: System, points: Balls) -> np.ndarray:
     jacobian = system.jacobian(points.mid)
     frame = frames(kernels(system, points.mid))
     square = jacobian @ frame
-    precondition = Balls.exact(np.linalg.pinv(square))
+    precondition = Balls.exact(inverses(square))
     product = precondition.matmul(system.jacobian_balls(points).matmul(Balls.exact(frame)))
     defect = (product - Balls.exact(np.eye(size - 1)[None])).magnitude().sum(axis=2).max(axis=1, initial=0.0)
     return np.asarray(defect < 0.9)

@@ -17,7 +17,7 @@ _NEWTON = 4
 
 @dataclass(frozen=True, eq=False)
 class Marks:
-    """Points at which tracking starts and stops, with the directions (unit tangents) in which arcs leave them.
+    """Points at which tracking starts and stops, with the unit tangents of the arcs that leave them.
 
     owner: for each half-edge its mark; directions: the tangent of each half-edge, away from the mark.
     """
@@ -41,7 +41,7 @@ class Track:
 
 @np.errstate(all="ignore")
 def newton(system: System, points: Array, normals: Array, steps: int = _NEWTON) -> tuple[Array, Array]:
-    """Points moved onto the curve within the hyperplanes normal to `normals`, and the sizes of the last moves."""
+    """Points moved onto the curve in the hyperplanes normal to `normals`, and how far they moved last."""
     moved = np.zeros(len(points))
     for _ in range(steps):
         correction = _solve(system, points, normals, system.values(points))
@@ -130,7 +130,7 @@ def _change(system: System, p: Array, q: Array, t: Array) -> Array:
 
 
 def _arrival(marks: Marks, p: Array, q: Array, t: Array, t_new: Array) -> int:
-    """The half-edge whose mark lies on the cubic through p and q with these tangents and faces them; or -1."""
+    """The half-edge whose mark lies on the cubic from p to q with these tangents and faces it; or -1."""
     chord = q - p
     length = float(np.linalg.norm(chord))
     s = (marks.points - p) @ chord / length**2

@@ -64,13 +64,13 @@ class Tubes:
 
 @np.errstate(all="ignore")
 def prove_tubes(system: System, start: Array, end: Array) -> Tubes:
-    """Tubes around the segments from `start` to `end` (B, n), each marked whether it is proven (nan proves nothing)."""
+    """Tubes around the segments from `start` to `end` (B, n), marked whether proven (nan proves nothing)."""
     n = start.shape[1]
     step, center = end - start, (start + end) / 2
     length = np.linalg.norm(step, axis=1)
     frame = frames(step)
     jacobian = system.jacobian(center)
-    precondition = Balls.exact(_inverses(jacobian @ frame))
+    precondition = Balls.exact(inverses(jacobian @ frame))
     exact_frame, exact_step = Balls.exact(frame), Balls.exact(step[:, :, None])
     half = 0.5 + MARGIN
     at_jacobian = precondition.matmul(system.jacobian_balls(Balls.exact(center)))
@@ -134,7 +134,7 @@ def frames(directions: Array) -> Array:
     mirror[:, :1] += sign
     scale = 2 / np.maximum((mirror**2).sum(axis=1), TINY)
     full = np.eye(n)[None] - scale[:, None, None] * mirror[:, :, None] * mirror[:, None, :]
-    return full[:, :, 1:]
+    return np.asarray(full[:, :, 1:])
 
 
 def _orthogonality(step: Array, frame: Array, length: Array) -> Array:
@@ -154,7 +154,7 @@ def _slopes(
     frame: Array,
     radius: Array,
 ) -> Balls:
-    """Y J over boxes in mean value form: Y J(center) + Y H(box) (s step + frame y), H the second derivatives."""
+    """Y J over boxes in mean value form: Y J(center) + Y H(box) (s step + frame y), H the Hessians."""
     count, n = step.shape
     second = precondition.matmul(system.hessian_balls(box)).reshape(count, n - 1, n, n)
     basis = np.concatenate([step[:, :, None] * (0.5 + MARGIN), frame * radius[:, None, None]], axis=2)
@@ -162,14 +162,14 @@ def _slopes(
     return Balls(at_center.mid, (at_center.rad + change) * (1 + 4 * n * EPSILON) + TINY)
 
 
-def _inverses(matrices: Array) -> Array:
+def inverses(matrices: Array) -> Array:
     """Inverses, or pseudo-inverses where the matrices are not square or one is singular."""
     if matrices.shape[1] == matrices.shape[2]:
         try:
-            return np.linalg.inv(matrices)
+            return np.asarray(np.linalg.inv(matrices), dtype=np.float64)
         except np.linalg.LinAlgError:
             pass
-    return np.linalg.pinv(matrices)
+    return np.asarray(np.linalg.pinv(matrices), dtype=np.float64)
 
 
 def _end_error(system: System, precondition: Balls, points: Array, size: Array, safe: Array) -> Array:
@@ -178,4 +178,5 @@ def _end_error(system: System, precondition: Balls, points: Array, size: Array, 
     rounding = 2 * EPSILON * size
     ball = Balls(points, np.broadcast_to(rounding[:, None], points.shape))
     residual = precondition.matmul(system.map.balls(ball).reshape(len(points), -1, 1)).magnitude()
-    return 1.01 * np.sqrt(n) * residual.max(axis=(1, 2), initial=0.0) / safe + 2 * np.sqrt(n) * rounding
+    distance = residual.max(axis=(1, 2), initial=0.0) / safe
+    return np.asarray(np.sqrt(n) * (1.01 * distance + 2 * rounding))
