@@ -18,8 +18,8 @@ from singsym.elimination.geometry import GeometricName, PointNames
 from singsym.kinematics.nonzero import Certifier
 from singsym.kinematics.reduction import Reduction
 from singsym.minors.blocks import block_triangular
-from singsym.minors.determinant import block_determinants
-from singsym.minors.factored import FactoredDeterminant, Unit, factored
+from singsym.minors.determinant import TooManyTerms
+from singsym.minors.factored import FactoredDeterminant, Unit, determinant_factors
 from singsym.minors.rank import RankBlocks, alternatives, is_small, minor_factors, rank_blocks
 from singsym.polynomials import Polynomial, PolynomialMatrix
 
@@ -31,6 +31,9 @@ LABELS = ("4", "5", "i", "ii", "iii", "iv", "v", "vi", "vii", "viii")
 
 LARGEST_DETERMINANT = 7
 """Square blocks up to this size are expanded before elimination; larger ones only after it."""
+
+MOST_TERMS = 50000
+"""Determinants with more terms on the way are left as determinants."""
 
 _MATRIX = {"4": "L_I", "5": "L_O", "vii": "L_I", "viii": "L_O", "iii": "L_p", "vi": "L"}
 _COMPARED = {"i": ("L_O", "L_p"), "ii": ("L_I", "L_p"), "iv": ("L_I", "L"), "v": ("L_O", "L")}
@@ -147,6 +150,9 @@ class Condition:
             lines.append("  in every configuration")
         elif self.alternatives is not None and not self.alternatives:
             lines.append("  in no configuration")
+        elif self.blocks is not None and self.alternatives is None:
+            sizes = ", ".join("x".join(map(str, block.shape)) for block in self.blocks.blocks)
+            lines.append(f"  by the rank {self.blocks.constant} + that of {sizes}, not written out")
         for alternative in self.alternatives or ():
             joined = "\n    and ".join(
                 f"{factor} = 0" if not factor.name else f"{factor}" for factor in alternative
@@ -263,6 +269,8 @@ class Conditions:
             latex = rf"\operatorname{{rank}} {name} < {N}"
             return self._rank_condition(label, name, N, f"rank {name} < {N}", latex)
         found = self._determinant(name)
+        if found is None:
+            return Condition(label, _TYPES[label], plain, latex, blocks=self.rank_blocks(name))
         return Condition(
             label,
             _TYPES[label],
@@ -276,24 +284,20 @@ class Conditions:
     def _factor(self, polynomial: Polynomial, multiplicity: int = 1) -> Factor:
         return Factor(polynomial, multiplicity, self.names.recognise(polynomial))
 
-    def _determinant(self, name: str) -> FactoredDeterminant:
-        """The determinant, in the smallest of the forms that the full and the reduced matrices give."""
-        reduced: PolynomialMatrix = self.matrix(name)
-        full: PolynomialMatrix = getattr(self.equation, name)
-        choices = []
-        if _largest_block(reduced) <= LARGEST_DETERMINANT:
-            choices.append(factored(block_determinants(reduced), self.certifier))
-        else:
-            apart = self.rank_blocks(name)
-            square = all(block.shape[0] == block.shape[1] for block in apart.blocks)
-            if square and apart.constant + sum(block.width for block in apart.blocks) == full.width:
-                parts = (d for block in apart.blocks for d in block_determinants(block))
-                choices.append(factored(parts, self.certifier))
-            else:
-                choices.append(factored(block_determinants(reduced), self.certifier))
-        if choices[0].factors and _largest_block(full) <= LARGEST_DETERMINANT:
-            choices.append(factored(block_determinants(full), self.certifier))
-        return min(choices, key=lambda choice: (not choice.vanishes, choice.size))
+    def _determinant(self, name: str) -> FactoredDeterminant | None:
+        """The determinant, in the smaller of the forms that the full and the reduced matrix give.
+
+        None where both have too many terms to be written out.
+        """
+        choices: list[FactoredDeterminant] = []
+        for matrix in (self.matrix(name), getattr(self.equation, name)):
+            if choices and (not choices[0].factors or _largest_block(matrix) > LARGEST_DETERMINANT):
+                break
+            try:
+                choices.append(determinant_factors(matrix, self.certifier, MOST_TERMS))
+            except TooManyTerms:
+                continue
+        return min(choices, key=lambda choice: (not choice.vanishes, choice.size), default=None)
 
     def _rank_condition(self, label: str, name: str, required: int, plain: str, latex: str) -> Condition:
         """The locus where a rank is below `required`, as alternatives where that is full rank."""
@@ -316,10 +320,16 @@ class Conditions:
             _TYPES[label],
             plain,
             latex,
-            tuple(tuple(self._factor(p) for p in a) for a in dict.fromkeys(found)) if decided else None,
+            tuple(tuple(self._factor(p) for p in a) for a in _minimal(found)) if decided else None,
             everywhere,
             blocks=apart,
         )
+
+
+def _minimal(found: list[tuple[Polynomial, ...]]) -> list[tuple[Polynomial, ...]]:
+    """Without those that have all the polynomials of another."""
+    distinct = dict.fromkeys(found)
+    return [a for a in distinct if not any(set(b) < set(a) for b in distinct)]
 
 
 def _largest_block(matrix: PolynomialMatrix) -> int:

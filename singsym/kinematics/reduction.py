@@ -205,8 +205,12 @@ class _Elimination:
                 for m in self._column(j):
                     if m not in (i, k):
                         factor = self.entries[m][j]
-                        combined = zip(self.entries[m], along, strict=True)
-                        self.entries[m] = self._tidy([pivot * a - factor * b for a, b in combined])
+                        pairs = list(zip(self.entries[m], along, strict=True))
+                        raw = [(v * v + w * w) * a - factor * b for a, b in pairs]
+                        if _is_multiple(raw, self.entries[k]):
+                            self.entries[m] = [self.ring.zero] * len(raw)
+                        else:
+                            self.entries[m] = self._tidy([pivot * a - factor * b for a, b in pairs])
                 self._drop((i,), (j,))
                 return True
         return False
@@ -241,6 +245,15 @@ class _Elimination:
         self.entries = [[row[j] for j in kept] for i, row in enumerate(self.entries) if i not in rows]
         self.rows = [r for i, r in enumerate(self.rows) if i not in rows]
         self.columns = [self.columns[j] for j in kept]
+
+
+def _is_multiple(row: Sequence[Polynomial], other: Sequence[Polynomial]) -> bool:
+    """Whether a row is a polynomial times another: then a row operation makes it zero."""
+    place = next((j for j, e in enumerate(other) if e), None)
+    if place is None or not other[place].divides(row[place]):
+        return False
+    quotient = row[place].exact_quotient(other[place])
+    return all(a == quotient * b for a, b in zip(row, other, strict=True))
 
 
 def _rational_content(row: Sequence[Polynomial]) -> fmpq:

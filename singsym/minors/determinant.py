@@ -14,6 +14,11 @@ from flint import fmpq, fmpq_mpoly, fmpz, fmpz_mpoly
 from singsym.minors.blocks import block_triangular
 from singsym.polynomials import Polynomial, PolynomialMatrix
 
+
+class TooManyTerms(ArithmeticError):
+    """A determinant has more terms than the limit that was asked for."""
+
+
 _Row = tuple[tuple[int, fmpz_mpoly], ...]
 
 
@@ -48,8 +53,10 @@ def _parity(permutation: Sequence[int]) -> bool:
     return bool(sum(a > b for a, b in combinations(permutation, 2)) % 2)
 
 
-def _expand(rows: Sequence[_Row], needed: Iterable[int]) -> dict[int, fmpz_mpoly]:
+def _expand(rows: Sequence[_Row], needed: Iterable[int], limit: int | None = None) -> dict[int, fmpz_mpoly]:
     """All maximal minors of the rows in the order given, by bit mask of columns.
+
+    limit: of the number of terms of all minors of some first rows; `TooManyTerms` beyond.
 
     needed: after k rows, the columns (bit mask) that a subset must contain to be of use.
     """
@@ -67,10 +74,12 @@ def _expand(rows: Sequence[_Row], needed: Iterable[int]) -> dict[int, fmpz_mpoly
                 known = following.get(reached)
                 following[reached] = term if known is None else known + term
         level = {mask: minor for mask, minor in following.items() if minor}
+        if limit is not None and sum(len(minor) for minor in level.values()) > limit:
+            raise TooManyTerms(f"more than {limit} terms in the minors of {k + 1} rows")
     return level
 
 
-def _determinant(matrix: PolynomialMatrix) -> Polynomial:
+def _determinant(matrix: PolynomialMatrix, limit: int | None = None) -> Polynomial:
     """The determinant of a square matrix without splitting it into blocks."""
     if not matrix.rows:
         return matrix.ring.one
@@ -82,7 +91,7 @@ def _determinant(matrix: PolynomialMatrix) -> Polynomial:
         needed.append(((1 << matrix.width) - 1) & ~later)
         for j, _ in row:
             later |= 1 << j
-    minors = _expand(rows, reversed(needed))
+    minors = _expand(rows, reversed(needed), limit)
     if not minors:
         return matrix.ring.zero
     scale = fmpz(-1 if _parity(order) else 1)
@@ -98,10 +107,11 @@ def _require_square(matrix: PolynomialMatrix) -> None:
         raise ValueError(f"a determinant needs a square matrix, not {matrix.shape}: use maximal_minors")
 
 
-def block_determinants(matrix: PolynomialMatrix) -> tuple[Polynomial, ...]:
+def block_determinants(matrix: PolynomialMatrix, limit: int | None = None) -> tuple[Polynomial, ...]:
     """Determinants of the diagonal blocks of the block triangular form; their product is the determinant.
 
     The sign is put on the first.  A single zero where no transversal exists.  Square matrices only.
+    limit: raises `TooManyTerms` where the subminors on the way have more terms together.
 
     >>> from singsym.polynomials import Ring
     >>> x, y = Ring(("x", "y")).gens
@@ -112,7 +122,7 @@ def block_determinants(matrix: PolynomialMatrix) -> tuple[Polynomial, ...]:
     form = block_triangular(matrix)
     if not form.is_square:
         return (matrix.ring.zero,)
-    found = [_determinant(matrix.select(rows, columns)) for rows, columns in form.square]
+    found = [_determinant(matrix.select(rows, columns), limit) for rows, columns in form.square]
     row_order = [i for rows, _ in form.square for i in rows]
     column_order = [j for _, columns in form.square for j in columns]
     if found and _parity(row_order) != _parity(column_order):

@@ -7,11 +7,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import combinations
 
 from singsym.kinematics.nonzero import Certifier, short_text
-from singsym.minors.determinant import block_determinants
+from singsym.minors.blocks import block_triangular
+from singsym.minors.determinant import block_determinants, maximal_minors
 from singsym.minors.trigonometry import circle_pairs, trigonometric_factors
 from singsym.polynomials import Polynomial, PolynomialMatrix
+
+CONDENSED = 7
+"""Larger blocks are condensed before they are expanded."""
 
 LARGEST = 4000
 """Polynomials with more terms are factored as they are, not modulo the equations."""
@@ -64,6 +69,7 @@ def factored(polynomials: Iterable[Polynomial], certifier: Certifier) -> Factore
     >>> found.factors, [str(u) for u in found.units]
     (((s, 1),), ['c + 2: between 1 and 3 on the configuration space'])
     """
+    constants = {constant.name for constant in certifier.space.ring.constants}
     multiplicities: dict[Polynomial, int] = {}
     units: dict[Polynomial, Unit] = {}
     for polynomial in polynomials:
@@ -76,7 +82,7 @@ def factored(polynomials: Iterable[Polynomial], certifier: Certifier) -> Factore
             reason = certifier.reason(factor)
             if reason is None:
                 multiplicities[factor] = multiplicities.get(factor, 0) + multiplicity
-            elif not factor.is_constant:
+            elif not set(factor.variables) <= constants:
                 before = units[factor].multiplicity if factor in units else 0
                 units[factor] = Unit(factor, before + multiplicity, reason)
     ordered = sorted(
@@ -110,9 +116,79 @@ def _weight(factors: list[tuple[Polynomial, int]], certifier: Certifier) -> tupl
     return sum(len(f) for f in left), sum(f.total_degree for f in left)
 
 
-def determinant_factors(matrix: PolynomialMatrix, certifier: Certifier) -> FactoredDeterminant:
+def condense(
+    matrix: PolynomialMatrix, certifier: Certifier
+) -> tuple[PolynomialMatrix, tuple[Polynomial, ...]]:
+    """A smaller matrix and polynomials whose product with its determinant is the determinant, up to sign.
+
+    Lemma (Laplace).  Let k columns of a square matrix be zero outside k + 1 rows, w the vector of the signed
+    k-minors of these rows there.  The determinant is, up to sign, that of the other columns with the k + 1
+    rows replaced by their combination with w.  Values are kept on the configuration space only.
+
+    >>> from singsym.kinematics.placement import ConfigurationSpace
+    >>> from singsym.polynomials import Ring
+    >>> R = Ring(("x", "y"))
+    >>> x, y = R.gens
+    >>> anywhere = Certifier(ConfigurationSpace(R, ()))
+    >>> matrix = PolynomialMatrix.of(R, [[x, 1, 0], [x * y, y, 1], [0, x, y]])
+    >>> condense(matrix, anywhere)[1]
+    (x, 1)
+    """
+    taken: list[Polynomial] = []
+    while (place := _condensable(matrix)) is not None:
+        rows, columns = place
+        block = matrix.select(rows, columns)
+        signed = [matrix.ring.zero] * len(rows)
+        for used, _, minor in maximal_minors(block):
+            (left,) = set(range(len(rows))) - set(used)
+            signed[left] = certifier.shorten(minor * (-1) ** left)
+        common = matrix.ring.zero
+        for w in signed:
+            common = common.gcd(w) if common else w
+        if common.is_zero:
+            return PolynomialMatrix.of(matrix.ring, [[matrix.ring.zero]]), tuple(taken)
+        taken.append(common.primitive())
+        signed = [w.exact_quotient(common) for w in signed]
+        others = [j for j in range(matrix.width) if j not in columns]
+        combined = [
+            certifier.shorten(
+                sum((w * matrix[i, j] for w, i in zip(signed, rows, strict=True)), start=matrix.ring.zero)
+            )
+            for j in others
+        ]
+        rest = matrix.select([i for i in range(matrix.shape[0]) if i not in rows], others)
+        matrix = PolynomialMatrix(matrix.ring, (*rest.rows, tuple(combined)), len(others))
+    return matrix, tuple(taken)
+
+
+def _condensable(matrix: PolynomialMatrix) -> tuple[tuple[int, ...], tuple[int, ...]] | None:
+    """Up to three columns with one more row of nonzero entries; None where there are none left."""
+    supports = [frozenset(i for i, row in enumerate(matrix.rows) if row[j]) for j in range(matrix.width)]
+    for k in (1, 2, 3):
+        small = [j for j, support in enumerate(supports) if len(support) <= k + 1]
+        for columns in combinations(small, k):
+            rows = frozenset().union(*(supports[j] for j in columns))
+            if len(rows) == k + 1 <= matrix.width:
+                return tuple(sorted(rows)), columns
+    return None
+
+
+def determinant_factors(
+    matrix: PolynomialMatrix, certifier: Certifier, limit: int | None = None
+) -> FactoredDeterminant:
     """The determinant of a square matrix as a product over its diagonal blocks, factored, without units.
 
+    Large blocks are condensed first.  limit: `TooManyTerms` where more terms would come up on the way.
     Raises `ValueError` where the matrix is not square.
     """
-    return factored(block_determinants(matrix), certifier)
+    form = block_triangular(matrix)
+    if matrix.shape[0] != matrix.width or not form.is_square:
+        return factored(block_determinants(matrix), certifier)
+    parts: list[Polynomial] = []
+    for rows, columns in form.square:
+        block = matrix.select(rows, columns)
+        if len(rows) > CONDENSED:
+            block, taken = condense(block, certifier)
+            parts += taken
+        parts += block_determinants(block, limit)
+    return factored(parts, certifier)

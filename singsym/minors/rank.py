@@ -6,10 +6,10 @@ write them as equations.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import chain
+from itertools import chain, combinations
 from math import comb, prod
 from typing import Any
 
@@ -216,13 +216,16 @@ def alternatives(minors: Minors, certifier: Certifier) -> Minors | None:
         choices = {c for c in wider if not any(other < c for other in wider)}
         if len(choices) > MANY_ALTERNATIVES:
             return None
-    possible = (
-        c
-        for c in choices
-        if len(c) < 2 or certifier.reason(sum((p * p for p in c), start=next(iter(c)) * 0)) is None
-    )
+    possible = (c for c in choices if _may_vanish(c, certifier))
     ordered = [tuple(sorted(c, key=lambda p: (len(p), str(p)))) for c in possible]
     return tuple(sorted(ordered, key=lambda c: (len(c), sum(len(p) for p in c), str(c))))
+
+
+def _may_vanish(polynomials: Iterable[Polynomial], certifier: Certifier) -> bool:
+    """False where some of them are proved, by their sum of squares, not to vanish together."""
+    short = [p for p in polynomials if len(p) <= 12]
+    groups = (group for size in (2, 3) for group in combinations(short, size))
+    return all(certifier.reason(sum((p * p for p in g[1:]), start=g[0] * g[0])) is None for g in groups)
 
 
 def rank_locus(matrix: PolynomialMatrix, rank: int, certifier: Certifier) -> RankLocus | None:

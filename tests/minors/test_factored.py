@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 
 from singsym.kinematics.nonzero import Certifier
 from singsym.kinematics.placement import ConfigurationSpace
-from singsym.minors.factored import determinant_factors, factored
+from singsym.minors.determinant import TooManyTerms, determinant
+from singsym.minors.factored import condense, determinant_factors, factored
 from singsym.minors.trigonometry import circle_pairs, trigonometric_factors
 from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
 
@@ -123,3 +124,30 @@ def test_units_are_said_and_a_vanishing_determinant_is_known() -> None:
     found = factored([(c**2 + s**2) ** 2 * (x**2 + 1)], certifier)
     assert not found.factors
     assert any("terms have one sign" in str(unit) for unit in found.units)
+
+
+FREE = Certifier(ConfigurationSpace(R, ()))
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    st.lists(
+        st.lists(st.sampled_from([0, 0, 0, 1, c, s, x, d - t]), min_size=6, max_size=6),
+        min_size=6,
+        max_size=6,
+    )
+)
+def test_condensation_keeps_the_determinant_up_to_a_constant(rows: list[list[Polynomial]]) -> None:
+    matrix = PolynomialMatrix.of(R, rows)
+    rest, taken = condense(matrix, FREE)
+    product = determinant(rest)
+    for factor in taken:
+        product = product * factor
+    assert product.primitive() == determinant(matrix).primitive()
+
+
+def test_too_many_terms_are_refused() -> None:
+    ring = Ring(tuple(f"x{i}" for i in range(25)))
+    dense = PolynomialMatrix.of(ring, [ring.gens[5 * i : 5 * i + 5] for i in range(5)])
+    with pytest.raises(TooManyTerms, match="more than 50"):
+        determinant_factors(dense, Certifier(ConfigurationSpace(ring, ())), 50)
