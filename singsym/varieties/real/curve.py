@@ -18,7 +18,7 @@ from singsym.elimination.progress import Sink, report, to
 from singsym.elimination.verdict import Certainty, Verdict
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.real.curve_arithmetic import Array, System
-from singsym.varieties.real.curve_assembly import Assembly, assemble, count_without
+from singsym.varieties.real.curve_assembly import Assembly, assemble, count_without, extended
 from singsym.varieties.real.curve_critical import Samples, sample_points
 from singsym.varieties.real.curve_equations import CurveEquations, candidates
 from singsym.varieties.real.curve_stars import find_stars
@@ -90,7 +90,8 @@ class RealCurve:
         if self._proof is None:
             raise Undecided(f"the topology of the curve is {self.verdict}")
         removed = [p for e in exclusions for p in real_points((*self._proof.equations, e), budget)]
-        return count_without(self._proof, removed, self.isolated_points)
+        proof = extended(self._proof, removed, current(budget))
+        return count_without(proof, removed, self.isolated_points)
 
     def __repr__(self) -> str:
         if self.verdict.is_undecided:

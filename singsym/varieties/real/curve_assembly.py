@@ -6,7 +6,7 @@ Source: curve_paths.py; a mark lies on exactly one chain, decided by tubes, so t
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import networkx as nx
 import numpy as np
@@ -15,7 +15,7 @@ from singsym.elimination.budget import Budget, Undecided
 from singsym.elimination.progress import report
 from singsym.polynomials import Polynomial
 from singsym.varieties.real.curve_arithmetic import Array, Balls, System
-from singsym.varieties.real.curve_critical import Samples, as_balls
+from singsym.varieties.real.curve_critical import Samples, as_balls, with_ends
 from singsym.varieties.real.curve_paths import Chain, chains, contained, pair_tracks, prove_chains
 from singsym.varieties.real.curve_singular import Star
 from singsym.varieties.real.curve_stars import is_regular
@@ -37,11 +37,12 @@ class Edge:
 
 @dataclass(frozen=True, eq=False)
 class Assembly:
-    """The stars of a curve and the edges between them."""
+    """The stars of a curve and the edges between them; `samples` are what it was built from."""
 
     equations: tuple[Polynomial, ...]
     stars: tuple[Star, ...]
     edges: tuple[Edge, ...]
+    samples: Samples | None = None
 
     @classmethod
     def empty(cls) -> Assembly:
@@ -91,7 +92,7 @@ def assemble(
             if reason or isinstance(proven, str):
                 continue
             found = proven
-        return Assembly(equations, tuple(stars), tuple(_edges(marked, found)))
+        return Assembly(equations, tuple(stars), tuple(_edges(marked, found)), samples)
     raise Undecided(reason)
 
 
@@ -183,6 +184,21 @@ def _edges(marked: _Marked, found: Sequence[Chain]) -> list[Edge]:
             first, last = (marked.nodes[m - marked.smooth] for m in (chain.marks[0], chain.marks[-1]))
             edges.append(Edge((first, last), chain))
     return edges
+
+
+def extended(proof: Assembly, points: Sequence[RealPoint], budget: Budget) -> Assembly:
+    """The same curve, followed further towards its ends where some of these points are beyond them."""
+    samples = proof.samples
+    if samples is None or samples.level is None:
+        return proof
+    inside = samples.objective - samples.level
+    if all(point.sign(inside) < 0 for point in points):
+        return proof
+    further = with_ends(proof.equations, samples.objective, (*samples.points, *points), budget)
+    system = System(proof.equations[0].ring, proof.equations)
+    return assemble(
+        system, proof.equations, replace(further, points=samples.points), proof.stars, budget, True
+    )
 
 
 def count_without(proof: Assembly, removed: Sequence[RealPoint], isolated: Sequence[RealPoint]) -> int:

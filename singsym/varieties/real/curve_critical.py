@@ -55,7 +55,7 @@ def sample_points(equations: Sequence[Polynomial], seed: int, budget: Budget) ->
         points = _critical_points(equations, gradients, objective, rng, budget)
         if points is None:
             continue
-        return _with_ends(equations, objective, points, budget)
+        return with_ends(equations, objective, points, budget)
     return None
 
 
@@ -67,12 +67,13 @@ def distance_samples(
     points = _critical_points(equations, gradient_rows(equations), objective, rng, budget)
     if points is None:
         raise Undecided("the critical points of a distance are not isolated")
-    return _with_ends(equations, objective, points, budget)
+    return with_ends(equations, objective, points, budget)
 
 
-def _with_ends(
+def with_ends(
     equations: Sequence[Polynomial], objective: Polynomial, points: tuple[RealPoint, ...], budget: Budget
 ) -> Samples:
+    """Samples at these points, with the ends beyond all of them where the curve may be unbounded."""
     if is_bounded(equations):
         return Samples(objective, points)
     level = level_above(objective, points)
