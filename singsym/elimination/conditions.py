@@ -16,7 +16,7 @@ import sympy
 
 from singsym.elimination.geometry import GeometricName, PointNames
 from singsym.kinematics.nonzero import Certifier
-from singsym.kinematics.reduction import Reduction
+from singsym.kinematics.reduction import Reduction, reduce
 from singsym.minors.blocks import block_triangular
 from singsym.minors.determinant import TooManyTerms
 from singsym.minors.factored import FactoredDeterminant, Unit, determinant_factors
@@ -337,6 +337,15 @@ def _largest_block(matrix: PolynomialMatrix) -> int:
     return max((len(rows) for rows, _ in block_triangular(matrix).square), default=0)
 
 
-def conditions(equation: VelocityEquation, reduction: Reduction) -> Conditions:
-    """The conditions of a velocity equation and its reduction; nothing is computed before it is asked for."""
-    return Conditions(equation, reduction)
+def conditions(equation: VelocityEquation, reduction: Reduction | None = None) -> Conditions:
+    """The conditions of a velocity equation; each is worked out when it is asked for.
+
+    reduction: that of section 4.2, where it is at hand.
+
+    >>> from singsym.kinematics.velocity import velocity_equation
+    >>> from singsym.mechanism import load
+    >>> print(conditions(velocity_equation(load("fourbar")))["vii"])
+    (vii) L_I is singular: RO or RPM, II or IIM
+      det[S_B S_C S_D] = By*Cx - Bx*Cy - 4*By + 4*Cy  (B, C, D collinear)
+    """
+    return Conditions(equation, reduction or reduce(equation))

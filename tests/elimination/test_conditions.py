@@ -7,10 +7,13 @@ from pathlib import Path
 import pytest
 
 from singsym.elimination.conditions import LABELS, Conditions
+from singsym.elimination.conditions import conditions as conditions_of
 from singsym.elimination.geometry import PointNames
 from singsym.kinematics.nonzero import Certifier
 from singsym.kinematics.placement import ConfigurationSpace
 from singsym.kinematics.reduction import reduce
+from singsym.kinematics.velocity import velocity_equation
+from singsym.mechanism import load
 from singsym.polynomials import Ring
 
 _spec = importlib.util.spec_from_file_location(
@@ -73,6 +76,53 @@ def test_latex(conditions: Conditions) -> None:
     assert r"\det[S_{B}\, S_{C}\, S_{D}] = " in text
     assert "x_{B} y_{C}" in text
     assert text.count("&") == text.count("\\\\") + 1
+
+
+def test_the_library_file_gives_the_conditions_of_the_matrix_by_hand(conditions: Conditions) -> None:
+    """Other loops and columns, the same determinants of points."""
+    found = conditions_of(velocity_equation(load("zlatanov-2dof")))
+    for label in ("vii", "viii"):
+        assert {f.words for f in found[label].factors} == {f.words for f in conditions[label].factors}
+    (both,) = found["iii"].alternatives or ()
+    assert {f.words for f in both} == {"B, C, D collinear", "C, D, G collinear"}
+
+
+@pytest.fixture(scope="module")
+def hybrid() -> Conditions:
+    return conditions_of(velocity_equation(load("zlatanov-hybrid")))
+
+
+def test_hybrid_chain_reduces_to_the_papers_equation_9(hybrid: Conditions) -> None:
+    """18x24 to 9x15 by the nine spins; what stays passive is w1 of B and w1, w2 of C (section 5.2)."""
+    assert hybrid.equation.matrix.shape == (18, 24)
+    assert hybrid.reduction.constant == 9
+    assert hybrid.reduction.equation.matrix.shape == (9, 15)
+    passive = [c.label for c in hybrid.reduction.equation.columns if c.role == "passive"]
+    assert passive == ["B1", "C1", "C2"]
+
+
+def test_hybrid_chain_legs(hybrid: Conditions) -> None:
+    """(13): each leg has its point on the vertical axis, or is extended (folded is excluded)."""
+    ring = hybrid.equation.space.ring
+    expected = set()
+    for leg in "ABC":
+        c, s, d, t = (ring.gen(f"{f}_{leg}{k}") for k in ("2", "23") for f in "cs")
+        expected |= {c + d, (s * d - c * t).primitive()}
+    assert {f.polynomial for f in hybrid["viii"].factors} == expected
+
+
+def test_hybrid_chain_passive_motion_and_redundant_output(hybrid: Conditions) -> None:
+    """(11): B or C on its first axis; (4): or AB across m1 of B, or C0 in plane ABC (section 5.3, step 4)."""
+    ring = hybrid.equation.space.ring
+    on_axis = {ring.gen(f"c_{leg}2") + ring.gen(f"c_{leg}23") for leg in "BC"}
+    assert {a for (a,) in hybrid["iii"].polynomials} == on_axis
+    assert [block.width for block in hybrid.rank_blocks("L_p").blocks] == [1, 2]
+    factors = hybrid["vii"].factors
+    assert on_axis < {f.polynomial for f in factors}
+    assert {f.words for f in factors if f.name} >= {"A, B, C, C0 coplanar"}
+    assert len(factors) == 4
+    assert hybrid["vi"].alternatives is None
+    assert "not written out" in str(hybrid["vi"])
 
 
 def test_a_polynomial_that_is_no_determinant_of_points_gets_no_name() -> None:
