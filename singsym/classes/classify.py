@@ -21,7 +21,7 @@ from singsym.classes.types import SingularityClass, SingularityType, feasible_cl
 from singsym.classes.work import Cache, Runner, cache_folder, processes
 from singsym.elimination import engines
 from singsym.elimination.conditions import Conditions, Factor, conditions, polynomial_latex
-from singsym.elimination.verdict import Verdict, weakest
+from singsym.elimination.verdict import Verdict
 from singsym.kinematics.reduction import reduce
 from singsym.kinematics.velocity import VelocityEquation, velocity_equation
 from singsym.mechanism.model import Mechanism
@@ -229,8 +229,8 @@ class _Work:
         doubts = [p.verdict.reason for p in own if p.verdict.is_undecided]
         doubts += [reason for _, reason in explored.unexplored]
         if present:
-            certainty = weakest(*(p.verdict.certainty for p in present[:1]))
-            verdict = Verdict(Verdict.yes().answer, certainty, reason="; ".join(dict.fromkeys(doubts)))
+            certainty = present[0].verdict.certainty
+            verdict = Verdict.yes(certainty, reason="; ".join(dict.fromkeys(doubts)))
             steps: tuple[str, ...] = (found_in(candidate.types),)
         elif doubts:
             verdict = Verdict.undecided("; ".join(dict.fromkeys(doubts)))

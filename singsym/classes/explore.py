@@ -85,7 +85,7 @@ def explore(branch: Branch) -> Explored:
             for component in decompose((*branch.path, *branch.equations), nonzero, ring=feasible.ring):
                 samples = _samples(component, feasible)
                 if samples is not None:
-                    strata.append(stratum(branch.problem, Ground(component.ideal, component.prime, samples)))
+                    strata.append(stratum(branch.problem, Ground(component, samples)))
     except Undecided as reason:
         return Explored((), str(reason))
     return Explored(tuple(strata))
@@ -142,7 +142,7 @@ def search(root: Branch, runner: Runner) -> Exploration:
             if explored.undecided:
                 unexplored.append((branch, explored.undecided))
             for part in explored.strata:
-                basis = part.ideal.groebner_basis()
+                basis = part.component.generators
                 if _covered(branch, part) or basis in found:
                     continue
                 found[basis] = Found(branch.path, part)

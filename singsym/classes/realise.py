@@ -16,9 +16,10 @@ from singsym.classes.result import Configuration, Equations, Piece
 from singsym.elimination.budget import Budget, Undecided
 from singsym.elimination.verdict import Verdict
 from singsym.kinematics.placement import Coordinates, JointValue
+from singsym.varieties.decomposition import Component
 from singsym.varieties.real.box import BoxPoint
 from singsym.varieties.real.curve import real_curve
-from singsym.varieties.real.dimension import real_dimension
+from singsym.varieties.real.dimension import component_dimension
 from singsym.varieties.real.intervals import at_precision, evaluate
 from singsym.varieties.real.points import RealPoint
 from singsym.varieties.real.witness import RealSystem
@@ -72,7 +73,7 @@ class Counted:
 def realise(task: RealTask) -> Piece:
     """The real side of one stratum: the task that workers run."""
     stratum = task.found.stratum
-    basis = stratum.ideal.generators
+    basis = stratum.component.generators
     piece = Piece(
         task.found.path,
         basis,
@@ -87,7 +88,7 @@ def realise(task: RealTask) -> Piece:
         with Budget(task.seconds, task.memory_mb):
             if stratum.dimension == 0:
                 return _finite(piece, system, task.names)
-            return _positive(piece, system, task.names)
+            return _positive(piece, stratum.component, system, task.names)
     except Undecided as reason:
         return replace(piece, verdict=Verdict.undecided(str(reason)))
 
@@ -103,13 +104,12 @@ def _finite(piece: Piece, system: RealSystem, names: Names) -> Piece:
     )
 
 
-def _positive(piece: Piece, system: RealSystem, names: Names) -> Piece:
-    dimension, witness = real_dimension(system)
+def _positive(piece: Piece, component: Component, system: RealSystem, names: Names) -> Piece:
+    dimension, witness = component_dimension(component, system)
     if witness is None:
         verdict = Verdict.no(reason="the equations have complex solutions, but no real and feasible one")
         return replace(piece, verdict=verdict, dimension=-1)
-    certainty = "proven" if isinstance(witness.point, RealPoint) else "certified"
-    verdict = Verdict(Verdict.yes().answer, certainty)
+    verdict = Verdict.yes("proven" if isinstance(witness.point, RealPoint) else "certified")
     return replace(
         piece, verdict=verdict, dimension=dimension, witnesses=(configuration(witness.point, names),)
     )

@@ -122,9 +122,12 @@ class SpacePiece:
 
 @dataclass(frozen=True)
 class Classification:
-    """Everything found out about a mechanism's singularities; see `as_json` for the fields in plain data."""
+    """Everything found out about a mechanism's singularities; see `as_json` for the fields in plain data.
 
-    mechanism: Mechanism
+    mechanism: None where a velocity equation was given by itself.
+    """
+
+    mechanism: Mechanism | None
     equation: VelocityEquation
     reduction: Reduction
     configuration_space: tuple[SpacePiece, ...]
@@ -148,7 +151,7 @@ class Classification:
     def as_json(self) -> dict[str, Any]:
         """The fields that `singsym classify --format json` prints."""
         return {
-            "mechanism": self.mechanism.name,
+            "mechanism": self.mechanism.name if self.mechanism else "",
             "N": self.equation.N,
             "n": self.equation.n,
             "configuration_space": [

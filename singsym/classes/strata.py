@@ -15,9 +15,9 @@ from itertools import combinations
 from math import comb
 
 from singsym.classes.types import Defects
-from singsym.elimination.ideal import Ideal
 from singsym.minors.determinant import determinant
 from singsym.polynomials import Polynomial, PolynomialMatrix
+from singsym.varieties.decomposition import Component
 
 ALL_MINORS = 24
 """Up to this many minors of a block, its rank locus is written with all of them."""
@@ -55,21 +55,20 @@ class BlockRank:
 
 @dataclass(frozen=True)
 class Stratum:
-    """V(ideal) minus the loci where the ranks drop: there the defects, or at least the types, are constant.
+    """A component minus the loci where the ranks drop: there the types are constant.
 
     degenerate: of each tuple, not all polynomials vanish on the stratum.
     loci: the same for each of the four matrices by name, those whose drop would change the types.
     """
 
-    ideal: Ideal
-    prime: bool
+    component: Component
     defects: Defects
     loci: Mapping[str, tuple[tuple[Polynomial, ...], ...]]
 
     @property
     def dimension(self) -> int:
         """The complex dimension."""
-        return self.ideal.dimension
+        return self.component.dimension
 
     @property
     def degenerate(self) -> tuple[tuple[Polynomial, ...], ...]:
@@ -82,8 +81,7 @@ class Stratum:
 class Ground:
     """Where ranks are asked for: V(ideal), with numerical real points on it to guess from."""
 
-    ideal: Ideal
-    prime: bool
+    component: Component
     samples: tuple[tuple[float, ...], ...] = ()
 
     def vanishes(self, polynomial: Polynomial) -> bool:
@@ -91,11 +89,12 @@ class Ground:
 
         A wrong False is harmless: it only makes a stratum empty and sends V(ideal) down as a locus again.
         """
-        if self.ideal.contains(polynomial):
+        ideal = self.component.ideal
+        if ideal.contains(polynomial):
             return True
-        if self.prime or any(self._is_large(polynomial, x) for x in self.samples):
+        if self.component.prime or any(self._is_large(polynomial, x) for x in self.samples):
             return False
-        return self.ideal.radical_contains(polynomial)
+        return ideal.radical_contains(polynomial)
 
     def _is_large(self, polynomial: Polynomial, x: tuple[float, ...]) -> bool:
         value = abs(polynomial.evaluate(x))
@@ -129,9 +128,11 @@ def block_rank(block: PolynomialMatrix, ground: Ground) -> BlockRank:
     nonvanishing ones the one with the simplest factors is taken.
 
     >>> from singsym.polynomials import Ring
+    >>> from singsym.varieties.decomposition import decompose
     >>> R = Ring(("x", "y"))
     >>> x, y = R.gens
-    >>> block_rank(PolynomialMatrix.of(R, [[x, y], [x, y]]), Ground(Ideal(R, (y,)), True))
+    >>> (line,) = decompose([y], ring=R)
+    >>> block_rank(PolynomialMatrix.of(R, [[x, y], [x, y]]), Ground(line))
     BlockRank(rank=1, minors=(x,))
     """
     rows, columns = ground.start(block)
@@ -237,7 +238,7 @@ def stratum(problem: RankProblem, ground: Ground) -> Stratum:
         ranks[name] = sum(known[block].rank for block in blocks)
         loci[name] = tuple(known[block].minors for block in blocks if known[block].minors)
     defects = problem.defects(ranks)
-    return Stratum(ground.ideal, ground.prime, defects, {name: loci[name] for name in relevant(defects)})
+    return Stratum(ground.component, defects, {name: loci[name] for name in relevant(defects)})
 
 
 def pivots(matrix: list[list[float]]) -> tuple[tuple[int, ...], tuple[int, ...]]:

@@ -68,14 +68,24 @@ def real_dimension(
     for component in sorted(components, key=lambda c: -c.dimension):
         if component.dimension <= best[0]:
             continue
-        found = _component_dimension(component, system, budget, seed)
+        found = component_dimension(component, system, budget, seed=seed)
         best = max(best, found, key=lambda pair: pair[0])
     return best
 
 
-def _component_dimension(
-    component: Component, system: RealSystem, budget: Budget, seed: int
+def component_dimension(
+    component: Component, system: RealSystem, budget: Budget | None = None, *, seed: int = 0
 ) -> tuple[int, Witness | None]:
+    """The same for one component in place of the system's equations.
+
+    >>> from singsym.polynomials import Ring
+    >>> R = Ring(("x", "y"))
+    >>> x, y = R.gens
+    >>> circle = decompose([x**2 + y**2 - 1], ring=R)[0]
+    >>> component_dimension(circle, RealSystem(R, (), positive=(x,)))[0]
+    1
+    """
+    budget = current(budget)
     piece = replace(system, equations=component.generators)
     if component.dimension == 0:
         return _zero_or_empty(piece, budget, seed)
