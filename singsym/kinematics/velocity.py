@@ -13,7 +13,7 @@ from singsym.kinematics.formulations import place
 from singsym.kinematics.loops import loops, path
 from singsym.kinematics.placement import ConfigurationSpace, Coordinates, JointValue, Placement
 from singsym.mechanism.model import JointRate, Mechanism, Output, PointVelocity, Space
-from singsym.polynomials import Polynomial, PolynomialMatrix
+from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
 
 Role = Literal["output", "input", "passive"]
 
@@ -135,7 +135,7 @@ def velocity_equation(mechanism: Mechanism, formulation: str = "auto") -> Veloci
     inputs = set(mechanism.inputs)
     columns = [Column(label, "output") for label in labels]
     columns += [Column(c, "input" if c in inputs else "passive") for c in joint_columns]
-    matrix = PolynomialMatrix.of(ring, rows, width)
+    matrix = PolynomialMatrix.of(ring, [[_reduced(ring, e) for e in row] for row in rows], width)
     return VelocityEquation(
         placed.space, matrix, tuple(columns), tuple(names), mechanism.N, mechanism.n, placed.values
     )
@@ -152,37 +152,64 @@ def _output_rows(
     ring = placed.space.ring
     if isinstance(output, JointRate):
         return [(output.column, {output.column: ring.one})]
-    twist = {}
-    for joint, sign in path(mechanism, output.link):
-        for column in joint.columns:
-            twist[column] = tuple(e * sign for e in placed.screws[column])
-    if mechanism.space is Space.SPHERICAL and not isinstance(output, PointVelocity):
-        moved = twist
-    else:
-        moved = {c: _at(s, placed.link_points[output.link, output.point]) for c, s in twist.items()}
-    if isinstance(output, PointVelocity):
-        places = {axis: i - len(next(iter(moved.values()))) for i, axis in enumerate("xyz")}
-        if mechanism.space is Space.PLANAR:
-            places = {"x": 1, "y": 2}
-        elif mechanism.space is Space.SPATIAL:
-            places = {"x": 3, "y": 4, "z": 5}
-        else:
-            places = {"x": 0, "y": 1, "z": 2}
-            point = placed.link_points[output.link, output.point]
-            moved = {c: _cross(s, point) for c, s in twist.items()}
-    else:
-        places = {axis: i for i, axis in enumerate(_AXES[mechanism.space])}
-    return [(name, {c: s[places[name]] for c, s in moved.items()}) for name in output.components]
+    twist = {
+        column: tuple(e * sign for e in placed.screws[column])
+        for joint, sign in path(mechanism, output.link)
+        for column in joint.columns
+    }
+    names = _AXES[mechanism.space]
+    wanted = [f"v{c}" if isinstance(output, PointVelocity) else c for c in output.components]
+    if any(c.startswith("v") for c in wanted):
+        arm = _arm(mechanism, placed, output.link, output.point)
+        names = names if "vx" in names else (*names, "vx", "vy", "vz")
+        twist = {column: _at(screw, arm, mechanism.space) for column, screw in twist.items()}
+    places = [names.index(c) for c in wanted]
+    return [
+        (component, {column: screw[i] for column, screw in twist.items()})
+        for component, i in zip(output.components, places, strict=True)
+    ]
+
+
+def _arm(mechanism: Mechanism, placed: Placement, link: str, point: str) -> Coordinates:
+    """The output's point, seen from the fixed origin; in a spherical mechanism from where the axes meet."""
+    if (link, point) not in placed.link_points:
+        known = ", ".join(sorted(name for owner, name in placed.link_points if owner == link))
+        raise ValueError(
+            f"output: point {point!r} of link {link!r} is not placed; placed are: {known or 'none'}"
+        )
+    place = placed.link_points[link, point]
+    if mechanism.space is not Space.SPHERICAL:
+        return place
+    ends = ((j.first, j.at[0], j.second, j.at[1]) for j in mechanism.joints)
+    centre = next(
+        (
+            placed.link_points[end]
+            for a, p, b, q in ends
+            for end in ((a, p), (b, q))
+            if end in placed.link_points
+        ),
+        (placed.space.ring.zero,) * 3,
+    )
+    return tuple(x - c for x, c in zip(place, centre, strict=True))
 
 
 def _cross(a: Sequence[Polynomial], b: Sequence[Polynomial]) -> Coordinates:
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
-def _at(screw: Coordinates, point: Coordinates) -> Coordinates:
+def _at(screw: Coordinates, point: Coordinates, space: Space) -> Coordinates:
     """The twist with its velocity at a point: v + w x r."""
-    if len(screw) == 3:
+    if space is Space.PLANAR:
         w, vx, vy = screw
         return (w, vx - w * point[1], vy + w * point[0])
     turned = _cross(screw[:3], point)
+    if space is Space.SPHERICAL:
+        return (*screw, *turned)
     return (*screw[:3], *(v + t for v, t in zip(screw[3:], turned, strict=True)))
+
+
+def _reduced(ring: Ring, polynomial: Polynomial) -> Polynomial:
+    """The same entry with powers of the ring's constants reduced (sqrt(3)^2 becomes 3)."""
+    for relation in ring.relations:
+        polynomial = Polynomial(ring, divmod(polynomial.value, relation.value)[1])
+    return polynomial

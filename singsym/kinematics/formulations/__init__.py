@@ -6,30 +6,34 @@ Source: Zlatanov, Fenton, Benhabib (1998), section 2.4; each module names the so
 from __future__ import annotations
 
 from singsym.kinematics.constraints import constrained
-from singsym.kinematics.formulations import joint, natural, planar
+from singsym.kinematics.formulations import joint, natural, planar, spherical
 from singsym.kinematics.placement import Placement
 from singsym.mechanism.model import Mechanism, Space
 
-FORMULATIONS = ("planar", "joint", "natural", "quaternion")
+FORMULATIONS = ("planar", "spherical", "joint", "natural", "quaternion")
 
 
 def place(mechanism: Mechanism, formulation: str = "auto") -> Placement:
     """The mechanism's variables, loop equations, screws and feasible set in a formulation.
 
-    formulation: "planar" (pins as points), "joint" (angles along a tree), "natural" (points and unit
-        vectors), "quaternion" (natural, platforms by quaternions), or "auto": the mechanism's own wish, else
-        planar for planar mechanisms with loops, joint otherwise, natural where that does not suit.
+    formulation: "planar" (pins as points), "spherical" (axes as unit vectors), "joint" (angles along a tree),
+        "natural" (points and unit vectors), "quaternion" (natural, platforms by quaternions), or "auto": the
+        mechanism's own wish; else planar and spherical for mechanisms of those spaces with loops, joint
+        otherwise, natural where that does not suit.
     Raises `ValueError` for another name, `MechanismError` where the mechanism cannot be placed.
     """
     chosen = mechanism.formulation if formulation == "auto" else formulation
     if chosen == "auto":
         closed = len(mechanism.joints) >= len(mechanism.links)
         chosen = "joint" if joint.suits(mechanism) else "natural"
-        chosen = "planar" if closed and mechanism.space is Space.PLANAR else chosen
+        if closed and mechanism.space is not Space.SPATIAL:
+            chosen = str(mechanism.space)
     if chosen not in FORMULATIONS:
         raise ValueError(f"formulation {chosen!r}: expected auto, {', '.join(FORMULATIONS)}")
     if chosen == "planar":
         placed = planar.place(mechanism)
+    elif chosen == "spherical":
+        placed = spherical.place(mechanism)
     elif chosen == "joint":
         placed = joint.place(mechanism)
     else:
