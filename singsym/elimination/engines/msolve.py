@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 import tempfile
 from collections.abc import Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 
@@ -26,6 +27,22 @@ _TOKEN = re.compile(r"\s*([\[\],:]|-?\d+(?:\s*/\s*\d+(?:\s*\^\s*\d+)?)?)")
 
 class NotZeroDimensional(ValueError):
     """The system has infinitely many complex solutions."""
+
+
+@dataclass(frozen=True)
+class RawParametrization:
+    """Solutions as msolve prints them: x_i = -numerators[i] / (divisors[i] denominator) at minimal(t) = 0.
+
+    order: the places of the variables in msolve's order; t is the last variable, which then has no numerator,
+    or a further one, and then sum form_i x_i is t up to sign.  Coefficients start with the constant one.
+    """
+
+    order: tuple[int, ...]
+    form: tuple[int, ...]
+    minimal: tuple[int, ...]
+    denominator: tuple[int, ...]
+    numerators: tuple[tuple[int, ...], ...]
+    divisors: tuple[int, ...]
 
 
 class MsolveEngine:
@@ -85,6 +102,22 @@ class MsolveEngine:
         used = tuple(range(len(ring.names)))
         text = self._call(generators, used, ["-p", str(bits)], current(budget))
         return _read_boxes(text, ring)
+
+    def parametrization(
+        self, equations: Sequence[Polynomial], ring: Ring, *, budget: Budget | None = None
+    ) -> RawParametrization | None:
+        """All complex solutions as functions of the roots of one polynomial; `None` where there are none.
+
+        Raises as `real_boxes`; what it returns is unchecked, and complete on msolve's word.
+        """
+        generators = [p for p in equations if p]
+        missing = set(ring.names) - {name for p in generators for name in p.variables}
+        if any(p.is_constant for p in generators):
+            return None
+        if missing:
+            raise NotZeroDimensional(f"{', '.join(sorted(missing))} in no equation")
+        text = self._call(generators, range(len(ring.names)), ["-P", "2"], current(budget))
+        return _read_parametrization(text)
 
     def _call(
         self,
@@ -162,6 +195,35 @@ def _tree(text: str) -> list[object]:
     if not isinstance(top, list) or not top:
         raise EngineFailure("msolve", f"printed {text[:80]!r}")
     return top
+
+
+def _read_parametrization(text: str) -> RawParametrization | None:
+    names = re.findall(r"'([^']*)'", text)
+    match _tree(re.sub(r"'[^']*'", "0", text)):
+        case ["-1"]:
+            return None
+        case ["1", _, "-1", []]:
+            raise NotZeroDimensional("infinitely many complex solutions")
+        case ["0", ["0", _, _, _, [*form], ["1", [[_, [*minimal]], [_, [*denominator]], [*rest]]]]]:
+            pass
+        case _:
+            raise EngineFailure("msolve", f"printed no parametrisation: {text[:80]!r}")
+    numerators, divisors = [], []
+    for entry in rest:
+        match entry:
+            case [[_, [*numerator]], divisor]:
+                numerators.append(_integers(numerator))
+                divisors.append(int(str(divisor)))
+            case _:
+                raise EngineFailure("msolve", "printed a coordinate that is no polynomial")
+    order = tuple(int(n[1:]) - 1 for n in names if re.fullmatch(r"x\d+", n))
+    return RawParametrization(
+        order, _integers(form), _integers(minimal), _integers(denominator), tuple(numerators), tuple(divisors)
+    )
+
+
+def _integers(entries: Sequence[object]) -> tuple[int, ...]:
+    return tuple(int(str(e)) for e in entries)
 
 
 def _read_boxes(text: str, ring: Ring) -> tuple[RealBox, ...]:

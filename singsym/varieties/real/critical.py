@@ -17,7 +17,7 @@ from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
 from singsym.varieties.decomposition import Component, decompose
 from singsym.varieties.real.intervals import jacobian
 from singsym.varieties.real.points import RealPoint
-from singsym.varieties.real.zerodim import pinned, real_points
+from singsym.varieties.real.zerodim import NotZeroDimensional, pinned, real_points
 
 _CENTRES = 3
 
@@ -158,18 +158,15 @@ def _critical_points(
         rows = [*jacobian(local, ring.names), [x - a for x, a in zip(ring.gens, centre, strict=True)]]
         matrix = PolynomialMatrix.of(ring, rows)
         conditions = [component.ideal.reduce(m) for _, _, m in minors(matrix, len(local) + 1)]
-        if singular.dimension <= 0:
-            system = Ideal(ring, (*component.generators, *conditions))
-            if system.dimension <= 0:
-                yield from real_points(system, budget) if system.dimension == 0 else ()
-                return
-            continue
-        pieces = list(_away_from(component, conditions, singular, budget))
-        if all(piece.dimension <= 0 for piece in pieces):
-            for piece in pieces:
-                if piece.dimension == 0:
+        try:
+            if singular.dimension <= 0:
+                yield from real_points(Ideal(ring, (*component.generators, *conditions)), budget)
+            else:
+                for piece in _away_from(component, conditions, singular, budget):
                     yield from (_dropped(p, ring) for p in real_points(piece, budget))
-            return
+        except NotZeroDimensional:
+            continue
+        return
     raise Undecided(
         f"the critical points of the distance on {component!r} are not finite for {_CENTRES} centres"
     )

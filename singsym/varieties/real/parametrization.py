@@ -12,6 +12,7 @@ from random import Random
 
 from flint import fmpz, fmpz_mat, fmpz_poly, nmod_mat, nmod_poly
 
+from singsym.elimination.verdict import Certainty
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.real.quotient import Algebra
 
@@ -23,13 +24,15 @@ _PRIME = 2**62 - 57
 class Parametrization:
     """All points of a finite set: coordinate i is numerators[i] / denominator at the roots of minimal.
 
-    minimal is squarefree; all three are polynomials over Z, constant coefficient first.
+    minimal is squarefree; all three are polynomials over Z, constant coefficient first.  The points are
+    proven; `certainty` says how it is known that none is missing.
     """
 
     ring: Ring
     minimal: fmpz_poly
     denominator: fmpz_poly
     numerators: tuple[fmpz_poly, ...]
+    certainty: Certainty = "proven"
 
     def image(self, polynomial: Polynomial) -> fmpz_poly:
         """A multiple of `polynomial` at the points, by a power of the denominator and a nonzero integer."""

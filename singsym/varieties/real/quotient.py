@@ -56,7 +56,7 @@ def standard_monomials(leading: Sequence[Monomial], size: int) -> list[Monomial]
     layer: set[Monomial] = {(0,) * size}
     while layer:
         layer = {t for t in layer if not any(_divides(m, t) for m in leading)}
-        found.extend(sorted(layer, key=_degrevlex))
+        found.extend(sorted(layer, key=degrevlex))
         layer = {(*t[:i], t[i] + 1, *t[i + 1 :]) for t in layer for i in range(size)}
     return found
 
@@ -80,7 +80,7 @@ def quotient_algebra(ring: Ring, basis: Sequence[Polynomial], check: Check = lam
     for j, b in enumerate(standard):
         for i in range(size):
             images.setdefault((*b[:i], b[i] + 1, *b[i + 1 :]), []).append((i, j))
-    for t in sorted(images, key=_degrevlex):
+    for t in sorted(images, key=degrevlex):
         check()
         column = fmpq_mat(count, 1)
         if t in position:
@@ -117,8 +117,13 @@ def _divides(m: Monomial, t: Monomial) -> bool:
     return all(a <= b for a, b in zip(m, t, strict=True))
 
 
-def _degrevlex(m: Monomial) -> tuple[int, Monomial]:
+def degrevlex(m: Monomial) -> tuple[int, Monomial]:
     return sum(m), tuple(-e for e in reversed(m))
+
+
+def commuting(algebra: Algebra) -> bool:
+    """Whether the multiplication matrices commute: then they are those of an algebra."""
+    return all(a * b == b * a for k, a in enumerate(algebra.matrices) for b in algebra.matrices[:k])
 
 
 # -- radical -----------------------------------------------------------------------------------------

@@ -7,16 +7,36 @@ Source: Faugere et al. (1993) and Rouillier (1999), see quotient.py and parametr
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
+from math import lcm
+from typing import Any
 
-from singsym.elimination.basis import groebner_basis
+from flint import fmpq_mpoly, fmpz_mpoly_vec, fmpz_poly
+
+from singsym.elimination import engines
+from singsym.elimination.basis import canonical, groebner_basis
 from singsym.elimination.budget import Budget, Undecided, current
+from singsym.elimination.engines.msolve import NotZeroDimensional as InfinitelyMany
+from singsym.elimination.engines.registry import msolve
 from singsym.elimination.ideal import Ideal
-from singsym.polynomials import AlgebraicConstant, Polynomial
-from singsym.varieties.real.parametrization import Parametrization, parametrize
+from singsym.elimination.memo import is_known, remember
+from singsym.polynomials import AlgebraicConstant, Polynomial, Ring
+from singsym.varieties.real.macaulay import quotient_algebra_over
+from singsym.varieties.real.parametrization import Parametrization, divides, parametrize
 from singsym.varieties.real.points import RealPoint, real_points_of
-from singsym.varieties.real.quotient import NotZeroDimensional, quotient_algebra, reduced
+from singsym.varieties.real.quotient import (
+    Algebra,
+    Check,
+    NotZeroDimensional,
+    commuting,
+    quotient_algebra,
+    reduced,
+)
 
 __all__ = ["NotZeroDimensional", "pinned", "real_points", "solve"]
+
+# (polynomials, terms of each, bits of a coefficient) up to which FLINT computes a basis in this process
+_CAPS = (150, 500, 1500)
 
 
 def real_points(
@@ -42,24 +62,107 @@ def real_points(
 
 
 def solve(equations: Sequence[Polynomial], budget: Budget | None = None) -> Parametrization:
-    """All complex points of a zero-dimensional system as functions of the roots of one polynomial, proven."""
+    """All complex points of a zero-dimensional system as functions of the roots of one polynomial.
+
+    FLINT's basis first where it takes milliseconds, then msolve's parametrisation where it is there, then the
+    easy equations' basis with the hard ones by linear algebra, then any engine's basis.  Every point is
+    proven by substitution; that none is missing is proven too where `certainty` is "proven".
+    """
     budget = current(budget)
     ring = equations[0].ring.with_names(equations[0].ring.names, "degrevlex")
-    system = [g for g in (*map(ring.convert, equations), *ring.relations) if not g.is_zero]
+    system = canonical(ring, (*map(ring.convert, equations), *ring.relations))
     if not system:
         raise NotZeroDimensional("only zero equations: the whole space")
+    return remember("points", (ring, frozenset(system)), lambda: _solve(ring, system, budget))
 
+
+def _solve(ring: Ring, system: tuple[Polynomial, ...], budget: Budget) -> Parametrization:
     def check() -> None:
         budget.check("the quotient algebra of a zero-dimensional system")
 
+    easy, hard = _easy_part(ring, system)
+    if hard and engines.has("msolve"):
+        try:
+            found = by_msolve(ring, system, budget)
+        except engines.EngineFailure:
+            found = None
+        if found is not None:
+            return found
+    if hard and easy:
+        algebra = quotient_algebra_over(Ideal(ring, easy), hard, check)
+        found = None if algebra is None else _points(algebra, system, check)
+        if found is not None:
+            return found
     basis = groebner_basis(ring, system, budget)
-    algebra = quotient_algebra(ring, basis.polynomials, check)
-    found = parametrize(algebra, system, check=check)
-    if found is None:
-        found = parametrize(reduced(algebra, check), system, check=check)
+    found = _points(quotient_algebra(ring, basis.polynomials, check), system, check)
     if found is None:
         raise Undecided("no linear form was found that separates the complex points")
+    return replace(found, certainty=basis.certainty)
+
+
+def _points(algebra: Algebra, system: Sequence[Polynomial], check: Check) -> Parametrization | None:
+    found = parametrize(algebra, system, check=check)
+    if found is None and commuting(algebra):
+        found = parametrize(reduced(algebra, check), system, check=check)
     return found
+
+
+def _easy_part(ring: Ring, system: Sequence[Polynomial]) -> tuple[tuple[Polynomial, ...], list[Polynomial]]:
+    """The Groebner basis of the equations that FLINT takes milliseconds for, and the other equations."""
+    if is_known("groebner", (ring, frozenset(system))):
+        return groebner_basis(ring, system).polynomials, []
+    basis: tuple[Polynomial, ...] = ()
+    if "flint" not in engines.allowed():
+        return basis, list(system)
+    whole = _capped_basis(ring, system)
+    if whole is not None:
+        return whole, []
+    hard = []
+    for f in sorted(system, key=lambda f: (f.total_degree, len(f))):
+        grown = _capped_basis(ring, (*basis, f))
+        if grown is None:
+            hard.append(f)
+        else:
+            basis = grown
+    return basis, hard
+
+
+def _capped_basis(ring: Ring, system: Sequence[Polynomial]) -> tuple[Polynomial, ...] | None:
+    vector: Any = fmpz_mpoly_vec([f.integer() for f in system], ring.integer_context)
+    basis, done = vector.buchberger_naive(limits=_CAPS)
+    return tuple(Polynomial(ring, fmpq_mpoly(p)).primitive() for p in basis.autoreduction()) if done else None
+
+
+def by_msolve(ring: Ring, system: Sequence[Polynomial], budget: Budget) -> Parametrization | None:
+    """msolve's parametrisation with every point proven by substitution; `None` where that fails."""
+    try:
+        raw = msolve.parametrization(system, ring, budget=budget)
+    except InfinitelyMany as error:
+        raise NotZeroDimensional(str(error)) from None
+    if raw is None:
+        one, none = fmpz_poly([1]), fmpz_poly([])
+        return Parametrization(ring, one, one, (none,) * len(ring.names), "modular")
+    common = lcm(*raw.divisors) if raw.divisors else 1
+    minimal = fmpz_poly(list(raw.minimal))
+    denominator = fmpz_poly(list(raw.denominator)) * common
+    numerators = [fmpz_poly([])] * len(ring.names)
+    root = fmpz_poly([0, 1]) * denominator
+    for place, n, d in zip(raw.order, raw.numerators, raw.divisors, strict=False):
+        numerators[place] = fmpz_poly(list(n)) * (-common // d)
+    if len(raw.numerators) < len(raw.order):
+        numerators[raw.order[-1]] = root
+    content = minimal.content()
+    minimal = fmpz_poly([c // content for c in minimal.coeffs()])
+    found = Parametrization(ring, minimal, denominator, tuple(numerators), "modular")
+    forms = [numerators[raw.order[-1]]]
+    if len(raw.form) > len(raw.order):
+        combined = fmpz_poly([])
+        for place, w in zip(raw.order, raw.form, strict=False):
+            combined = combined + numerators[place] * w
+        forms = [combined]
+    separating = any(divides(minimal, f - s * root) for f in forms for s in (1, -1))
+    squarefree = minimal.gcd(minimal.derivative()).degree() == 0
+    return found if separating and squarefree and all(map(found.vanishes, system)) else None
 
 
 def pinned(point: RealPoint, constants: Sequence[AlgebraicConstant]) -> bool:
