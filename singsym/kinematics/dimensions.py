@@ -214,7 +214,7 @@ class Dimensions:
         known = {
             sympy.Symbol(p.name): sympy.Symbol(p.name, positive=True)
             for p in self.ranges
-            if p.low is not None and (p.low == 0 or bool(sympy.sympify(p.low).is_positive))
+            if p.low is not None and sympy.sympify(p.low).xreplace(dict(self.values)).is_nonnegative
         }
         return bool(sympy.sympify(expression).xreplace(dict(self.values)).xreplace(known).is_positive)
 
@@ -290,7 +290,7 @@ def _resolved(values: dict[sympy.Symbol, sympy.Expr]) -> dict[sympy.Symbol, symp
     """Fixed parameters may be given through one another; raises `ValueError` on a circle."""
     for _ in range(len(values) + 1):
         settled = {s: sympy.sympify(v).xreplace(values) for s, v in values.items()}
-        if settled == values:
+        if not any(v.free_symbols & values.keys() for v in settled.values()):
             return settled
         values = settled
     raise ValueError(f"parameters {sorted(map(str, values))} are given through one another in a circle")
