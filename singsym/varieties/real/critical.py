@@ -36,11 +36,11 @@ def sample_points(
     >>> len(sample_points(R, [(x**2 + y**2 - 1) * ((x - 4) ** 2 + y**2 - 1)])) >= 2
     True
     """
-    budget = current(budget)
     system = [f for f in (*equations, *ring.relations) if not f.is_zero]
     found: list[RealPoint] = []
-    for component in decompose(system, ring=ring, budget=budget):
-        found.extend(component_samples(component, system, budget))
+    with current(budget).part() as limited:
+        for component in decompose(system, ring=ring, budget=limited):
+            found.extend(component_samples(component, system, limited))
     return tuple(p for p in dict.fromkeys(found) if pinned(p, ring.constants))
 
 
@@ -67,7 +67,12 @@ def component_samples(
     known = component.prime or component.cohen_macaulay
     if not known and codimension not in (len(generators), len(equations)):
         raise Undecided(f"{component!r} is not known to have one dimension only")
-    local, singular = regular_generators(component, equations, codimension, budget)
+    # finitely many critical and singular points together: then the piece is reduced and nothing is left
+    chosen = next(_choices(component, equations, codimension))
+    try:
+        return real_points(Ideal(ring, _critical_system(component, chosen, Random(5))), budget)
+    except NotZeroDimensional:
+        local, singular = regular_generators(component, equations, codimension, budget)
     found = list(_critical_points(component, local, singular, budget))
     if singular.dimension > 0:
         found.extend(sample_points(ring, singular.generators, budget))
@@ -154,15 +159,12 @@ def _critical_points(
     random = Random(5)
     for _ in range(_CENTRES):
         budget.check("critical points of a distance")
-        centre = [ring.constant(random.randint(-40, 40)) / random.randint(7, 13) for _ in ring.names]
-        rows = [*jacobian(local, ring.names), [x - a for x, a in zip(ring.gens, centre, strict=True)]]
-        matrix = PolynomialMatrix.of(ring, rows)
-        conditions = [component.ideal.reduce(m) for _, _, m in minors(matrix, len(local) + 1)]
+        system = _critical_system(component, local, random)
         try:
             if singular.dimension <= 0:
-                yield from real_points(Ideal(ring, (*component.generators, *conditions)), budget)
+                yield from real_points(Ideal(ring, system), budget)
             else:
-                for piece in _away_from(component, conditions, singular, budget):
+                for piece in _away_from(component, system, singular, budget):
                     yield from (_dropped(p, ring) for p in real_points(piece, budget))
         except NotZeroDimensional:
             continue
@@ -172,14 +174,25 @@ def _critical_points(
     )
 
 
+def _critical_system(
+    component: Component, local: Sequence[Polynomial], random: Random
+) -> tuple[Polynomial, ...]:
+    """Where the gradients of `local` and the direction to a random rational point are dependent."""
+    ring = component.ideal.ring
+    centre = [ring.constant(random.randint(-40, 40)) / random.randint(7, 13) for _ in ring.names]
+    rows = [*jacobian(local, ring.names), [x - a for x, a in zip(ring.gens, centre, strict=True)]]
+    found = [m for _, _, m in minors(PolynomialMatrix.of(ring, rows), len(local) + 1)]
+    return (*component.generators, *map(component.ideal.reduce, found))
+
+
 def _away_from(
-    component: Component, conditions: Sequence[Polynomial], singular: Ideal, budget: Budget
+    component: Component, system: Sequence[Polynomial], singular: Ideal, budget: Budget
 ) -> Iterator[Ideal]:
     """For each minor the critical points where it is not zero: together all that are not singular."""
     ring = component.ideal.ring
     wide = ring.with_names((*ring.names, "1/minor"))
     t = wide.gens[-1]
-    base = [wide.convert(f) for f in (*component.generators, *conditions)]
+    base = [wide.convert(f) for f in system]
     known = set(component.generators)
     for minor in singular.generators:
         if minor not in known:

@@ -62,7 +62,11 @@ def real_dimension(
     >>> [real_dimension(RealSystem(R, (f,)))[0] for f in (x**2 + y**2, x**2 + y**2 + z**2, x**2 + 1)]
     [1, 0, -1]
     """
-    budget = current(budget)
+    with current(budget).part() as limited:
+        return _real_dimension(system, limited, seed)
+
+
+def _real_dimension(system: RealSystem, budget: Budget, seed: int) -> tuple[int, Witness | None]:
     best: tuple[int, Witness | None] = (-1, None)
     components = decompose(system.closed_equations, system.positive, ring=system.ring, budget=budget)
     for component in sorted(components, key=lambda c: -c.dimension):

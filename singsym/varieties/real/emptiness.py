@@ -37,9 +37,9 @@ def is_empty_over_reals(
     >>> is_empty_over_reals(RealSystem(R, (x**2 + y**2 - 1,), positive=(x - y,))).answer
     <Answer.NO: 'no'>
     """
-    budget = current(budget)
     try:
-        return _decided(system, budget, seed, tries)
+        with current(budget).part() as limited:
+            return _decided(system, limited, seed, tries)
     except Undecided as reason:
         return Verdict.undecided(str(reason))
 

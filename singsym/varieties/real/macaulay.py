@@ -7,8 +7,9 @@ Source: Mourrain, AAECC-13, LNCS 1719 (1999) 430-443 (commuting multiplication m
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from math import lcm
 
-from flint import fmpq, fmpq_mat, fmpz, nmod_mat
+from flint import fmpq, fmpq_mat, nmod_mat
 
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Polynomial
@@ -59,6 +60,7 @@ class _Rows:
         self.first = max(self.degrees, default=1)
         self.multiples: list[dict[Monomial, Vector]] = [{} for _ in self.hard]
         self.degree = 0
+        self.bound = 0
 
     # -- growing -----------------------------------------------------------------------------------
 
@@ -127,7 +129,10 @@ class _Rows:
             yield from multiples.values()
 
     def reduced_modulo_prime(self) -> tuple[list[Monomial], list[Vector]] | None:
-        """Leading monomials of the rows' span modulo a prime, and as many independent rows."""
+        """Leading monomials of the rows' span modulo a prime, and as many independent rows.
+
+        `None` until all monomials of some degree, the `bound`, are among them.
+        """
         columns = self.columns
         vectors = list(self.vectors())
         matrix = _modular(vectors, columns)
@@ -135,13 +140,17 @@ class _Rows:
         pivots = [columns[next(j for j in range(len(columns)) if echelon[r, j])] for r in range(rank)]
         transposed, _ = matrix.transpose().rref()
         chosen = [vectors[next(j for j in range(len(vectors)) if transposed[r, j])] for r in range(rank)]
-        top = {m for m in columns if sum(m) == self.degree}
-        return (pivots, chosen) if top <= set(pivots) else None
+        taken = set(pivots)
+        for bound in range(self.degree + 1):
+            if taken.issuperset(self.layers[bound]):
+                self.bound = bound
+                return pivots, chosen
+        return None
 
     def basis(self, pivots: Sequence[Monomial]) -> list[Monomial] | None:
         """The monomials that are no pivots, smallest first; `None` where one is not a multiple of another."""
         taken = set(pivots)
-        found = sorted((m for m in self.columns if m not in taken), key=degrevlex)
+        found = [m for layer in self.layers[: self.bound] for m in layer if m not in taken]
         known = set(found)
         for m in found:
             below = [(*m[:i], e - 1, *m[i + 1 :]) for i, e in enumerate(m) if e]
@@ -179,13 +188,18 @@ class _Rows:
 
     def algebra(
         self, basis: Sequence[Monomial], pivots: Sequence[Monomial], chosen: Sequence[Vector], check: Check
-    ) -> Algebra:
-        """The multiplication matrices over Q."""
+    ) -> Algebra | None:
+        """The multiplication matrices over Q; `None` where a rewriting rule holds modulo the prime only."""
         check()
         count = len(basis)
         index = {m: r for r, m in enumerate(pivots)}
         place = {m: k for k, m in enumerate(basis)}
-        solved = _rational(chosen, pivots).solve(_rational(chosen, basis)) if pivots and basis else None
+        taken = {*pivots, *basis}
+        targets = [*basis, *(m for m in self.columns if m not in taken)]
+        solved = _solved(chosen, pivots, targets)
+        low = [index[m] for m in pivots if sum(m) <= self.bound]
+        if any(solved[r, k] for r in low for k in range(count, len(targets))):
+            return None
         matrices = []
         for i in range(len(self.ring.names)):
             matrix = fmpq_mat(count, count)
@@ -194,7 +208,7 @@ class _Rows:
                 for m, c in self.form((*b[:i], b[i] + 1, *b[i + 1 :])).items():
                     if m in place:
                         matrix[place[m], j] += c
-                    elif solved is not None:
+                    else:
                         for k in range(count):
                             matrix[k, j] -= c * solved[index[m], k]
             matrices.append(matrix)
@@ -222,15 +236,16 @@ def _modular(vectors: Sequence[Vector], columns: Sequence[Monomial]) -> nmod_mat
     return nmod_mat(len(vectors), len(columns), entries, _PRIME)
 
 
-def _rational(vectors: Sequence[Vector], columns: Sequence[Monomial]) -> fmpq_mat:
-    """The matrix with the denominators of each row cleared, by factors that depend on the row alone."""
-    matrix = fmpq_mat(len(vectors), len(columns))
-    place = {m: j for j, m in enumerate(columns)}
-    for r, vector in enumerate(vectors):
-        common = fmpz(1)
-        for c in vector.values():
-            common = common.lcm(c.q)
-        for m, c in vector.items():
-            if m in place:
-                matrix[r, place[m]] = c * common
-    return matrix
+def _solved(chosen: Sequence[Vector], pivots: Sequence[Monomial], targets: Sequence[Monomial]) -> fmpq_mat:
+    """What each pivot monomial is, up to sign, in the target monomials, by the independent rows."""
+    if not pivots or not targets:
+        return fmpq_mat(len(pivots), len(targets))
+    scales = [lcm(*(int(c.q) for c in vector.values())) for vector in chosen]
+    left, right = fmpq_mat(len(chosen), len(pivots)), fmpq_mat(len(chosen), len(targets))
+    for matrix, columns in ((left, pivots), (right, targets)):
+        place = {m: j for j, m in enumerate(columns)}
+        for r, (vector, scale) in enumerate(zip(chosen, scales, strict=True)):
+            for m, c in vector.items():
+                if m in place:
+                    matrix[r, place[m]] = c * scale
+    return left.solve(right)

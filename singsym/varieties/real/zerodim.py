@@ -17,6 +17,7 @@ from singsym.elimination import engines
 from singsym.elimination.basis import canonical, groebner_basis
 from singsym.elimination.budget import Budget, Undecided, current
 from singsym.elimination.engines.msolve import NotZeroDimensional as InfinitelyMany
+from singsym.elimination.engines.msolve import RawParametrization
 from singsym.elimination.engines.registry import msolve
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.memo import is_known, remember
@@ -80,24 +81,31 @@ def _solve(ring: Ring, system: tuple[Polynomial, ...], budget: Budget) -> Parame
     def check() -> None:
         budget.check("the quotient algebra of a zero-dimensional system")
 
-    easy, hard = _easy_part(ring, system)
-    if hard and engines.has("msolve"):
-        try:
-            found = by_msolve(ring, system, budget)
-        except engines.EngineFailure:
-            found = None
-        if found is not None:
-            return found
-    if hard and easy:
-        algebra = quotient_algebra_over(Ideal(ring, easy), hard, check)
+    known = is_known("groebner", (ring, frozenset(system)))
+    found = None
+    if not known and "flint" in engines.allowed():
+        whole = _capped_basis(ring, system)
+        if whole is not None:
+            return _from_basis(ring, whole, system, check)
+    if not known and engines.has("msolve"):
+        found = _by_msolve(ring, system, budget)
+    elif not known and "flint" in engines.allowed():
+        easy, hard = _easy_part(ring, system)
+        algebra = quotient_algebra_over(Ideal(ring, easy), hard, check) if easy else None
         found = None if algebra is None else _points(algebra, system, check)
-        if found is not None:
-            return found
+    if found is not None:
+        return found
     basis = groebner_basis(ring, system, budget)
-    found = _points(quotient_algebra(ring, basis.polynomials, check), system, check)
+    return replace(_from_basis(ring, basis.polynomials, system, check), certainty=basis.certainty)
+
+
+def _from_basis(
+    ring: Ring, basis: Sequence[Polynomial], system: Sequence[Polynomial], check: Check
+) -> Parametrization:
+    found = _points(quotient_algebra(ring, basis, check), system, check)
     if found is None:
         raise Undecided("no linear form was found that separates the complex points")
-    return replace(found, certainty=basis.certainty)
+    return found
 
 
 def _points(algebra: Algebra, system: Sequence[Polynomial], check: Check) -> Parametrization | None:
@@ -109,14 +117,7 @@ def _points(algebra: Algebra, system: Sequence[Polynomial], check: Check) -> Par
 
 def _easy_part(ring: Ring, system: Sequence[Polynomial]) -> tuple[tuple[Polynomial, ...], list[Polynomial]]:
     """The Groebner basis of the equations that FLINT takes milliseconds for, and the other equations."""
-    if is_known("groebner", (ring, frozenset(system))):
-        return groebner_basis(ring, system).polynomials, []
     basis: tuple[Polynomial, ...] = ()
-    if "flint" not in engines.allowed():
-        return basis, list(system)
-    whole = _capped_basis(ring, system)
-    if whole is not None:
-        return whole, []
     hard = []
     for f in sorted(system, key=lambda f: (f.total_degree, len(f))):
         grown = _capped_basis(ring, (*basis, f))
@@ -133,36 +134,44 @@ def _capped_basis(ring: Ring, system: Sequence[Polynomial]) -> tuple[Polynomial,
     return tuple(Polynomial(ring, fmpq_mpoly(p)).primitive() for p in basis.autoreduction()) if done else None
 
 
-def by_msolve(ring: Ring, system: Sequence[Polynomial], budget: Budget) -> Parametrization | None:
+def _by_msolve(ring: Ring, system: Sequence[Polynomial], budget: Budget) -> Parametrization | None:
     """msolve's parametrisation with every point proven by substitution; `None` where that fails."""
     try:
         raw = msolve.parametrization(system, ring, budget=budget)
     except InfinitelyMany as error:
         raise NotZeroDimensional(str(error)) from None
+    except engines.EngineFailure:
+        budget.check("real points by msolve")
+        return None
     if raw is None:
         one, none = fmpz_poly([1]), fmpz_poly([])
         return Parametrization(ring, one, one, (none,) * len(ring.names), "modular")
-    common = lcm(*raw.divisors) if raw.divisors else 1
+    found, separating = _read(ring, raw)
+    return found if separating and all(map(found.vanishes, system)) else None
+
+
+def _read(ring: Ring, raw: RawParametrization) -> tuple[Parametrization, bool]:
+    """msolve's answer in our form, and whether different roots are proven to give different points."""
+    common = lcm(*raw.divisors)
     minimal = fmpz_poly(list(raw.minimal))
     denominator = fmpz_poly(list(raw.denominator)) * common
     numerators = [fmpz_poly([])] * len(ring.names)
     root = fmpz_poly([0, 1]) * denominator
     for place, n, d in zip(raw.order, raw.numerators, raw.divisors, strict=False):
         numerators[place] = fmpz_poly(list(n)) * (-common // d)
+    form = fmpz_poly([])
     if len(raw.numerators) < len(raw.order):
-        numerators[raw.order[-1]] = root
+        numerators[raw.order[-1]] = form = root
+    else:
+        for place, w in zip(raw.order, raw.form, strict=False):
+            form = form + numerators[place] * w
     content = minimal.content()
     minimal = fmpz_poly([c // content for c in minimal.coeffs()])
-    found = Parametrization(ring, minimal, denominator, tuple(numerators), "modular")
-    forms = [numerators[raw.order[-1]]]
-    if len(raw.form) > len(raw.order):
-        combined = fmpz_poly([])
-        for place, w in zip(raw.order, raw.form, strict=False):
-            combined = combined + numerators[place] * w
-        forms = [combined]
-    separating = any(divides(minimal, f - s * root) for f in forms for s in (1, -1))
+    separating = any(divides(minimal, form - s * root) for s in (1, -1))
     squarefree = minimal.gcd(minimal.derivative()).degree() == 0
-    return found if separating and squarefree and all(map(found.vanishes, system)) else None
+    return Parametrization(
+        ring, minimal, denominator, tuple(numerators), "modular"
+    ), separating and squarefree
 
 
 def pinned(point: RealPoint, constants: Sequence[AlgebraicConstant]) -> bool:
