@@ -97,7 +97,7 @@ def track(
         change = _change(system, p, q, t)
         cosine = (t * t_new).sum(axis=1)
         off = np.linalg.norm(q - guess, axis=1)
-        good = (moved < 1e-9 * size) & (change < bend) & (cosine > 0.8) & (off < 0.3 * h) & np.isfinite(off)
+        good = (moved < np.maximum(1e-9 * size, 1e-5 * h)) & (change < bend) & (cosine > 0.8) & (off < 0.3 * h) & np.isfinite(off)
         ratio = np.where(np.isfinite(change), 0.8 * bend / np.maximum(change, 1e-3 * bend), 0.0)
         step[alive] = h * np.where(good, np.clip(ratio, 0.5, 2.0), np.clip(ratio, 0.1, 0.5))
         reached = np.full(len(alive), -1)
