@@ -85,7 +85,8 @@ def test_fixed_parameters_go_and_ranges_stay() -> None:
     assert found.polynomial(ring, b) == 6
     assert found.positive(ring) == (ring.gen("a") - 3, 12 - ring.gen("a"))
     assert found.polynomial(ring, 2 * l / sympy.sqrt(3)) == ring.gen("sqrt3") * 2
-    assert found.is_positive(a) and not found.is_positive(a - 4)
+    assert found.is_positive(a)
+    assert not found.is_positive(a - 4)
 
 
 def test_roots_and_inverses_of_parameters_get_names() -> None:
@@ -106,8 +107,8 @@ def test_what_is_refused() -> None:
         Dimensions.of_expressions([sympy.exp(1)])
     with pytest.raises(ValueError, match="not real"):
         Dimensions.of_expressions([sympy.sqrt(-2, evaluate=False)])
+    a, b = sympy.symbols("a b")
     with pytest.raises(ValueError, match="circle"):
-        a, b = sympy.symbols("a b")
         Dimensions.of_expressions([], [Parameter("a", b), Parameter("b", a)])
     found = Dimensions.of_expressions([])
     with pytest.raises(ValueError, match="neither a parameter"):

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from singsym.kinematics.dimensions import Sized, dimensions
+from singsym.kinematics.formulations.frames import shortened
 from singsym.kinematics.formulations.planar_plan import Pin, Plan, plan
 from singsym.kinematics.placement import ConfigurationSpace, Coordinates, JointValue, Placement
 from singsym.mechanism.model import Joint, JointKind, Mechanism
@@ -67,9 +68,11 @@ class _Placing:
                 self.equations += self._guide(joint)
         for link in self.mechanism.links:
             self._fill_points(link.name)
+        circles = [c**2 + s**2 - 1 for c, s in self._directions()]
+        closing = (e if e in circles else shortened(self.sized.reduced(e), circles) for e in self.equations)
         space = ConfigurationSpace(
             self.ring,
-            tuple(dict.fromkeys(e for e in (*self.sized.relations, *self.equations) if e)),
+            tuple(dict.fromkeys(e for e in (*self.sized.relations, *closing) if e)),
             positive=self.sized.positive,
             parameters=self.sized.parameters,
             points=self._named_points(),
@@ -81,6 +84,9 @@ class _Placing:
             screws |= self._screws(joint)
             values |= self._value(joint)
         return Placement(space, screws, self.points, (), values)
+
+    def _directions(self) -> set[tuple[Polynomial, Polynomial]]:
+        return {(self.ring.gen(g[0]), self.ring.gen(g[1])) for g in self.plan.directed.values() if g}
 
     # -- pins and links ---------------------------------------------------------------------------
 
@@ -206,6 +212,8 @@ class _Placing:
         return dict(zip(joint.columns, (*slides, turn), strict=True))
 
     def _value(self, joint: Joint) -> dict[str, JointValue]:
+        if joint.name in self.plan.placing_slides:
+            return {joint.name: JointValue(length=self.ring.gen(self.plan.placing_slides[joint.name]))}
         if joint.kind is JointKind.P:
             a, b = self.points[joint.first, joint.at[0]], self.points[joint.second, joint.at[1]]
             away = (b[0] - a[0], b[1] - a[1])
