@@ -83,25 +83,28 @@ class Factor:
         return f"{self.name.text} = {shown}  ({self.name.words})" if self.name else shown
 
 
-_INDEXED = re.compile(r"([a-zA-Z])(?:_(\w+)|([0-9A-Z]\w*))")
+_INDEXED = re.compile(r"(?P<letter>[a-zA-Z])(?:_(?P<index>\w+)|(?P<other>[0-9A-Z]\w*))")
+_COORDINATE = re.compile(r"(?P<index>[A-Z]\w*)(?P<other>)(?P<letter>[xyz])")
 
 
-def _symbol_latex(name: str) -> str:
-    """A letter with an index as such: xB and x_B alike; other names as SymPy prints them."""
-    if found := _INDEXED.fullmatch(name):
-        index = (found[2] or found[3]).replace("_", ",")
-        return (
-            f"{found[1]}_{{{index}}}"
-            if len(index) == 1 or index.isdigit()
-            else f"{found[1]}_{{\\mathrm{{{index}}}}}"
-        )
-    return str(sympy.latex(sympy.Symbol(name)))
+def symbol_latex(name: str) -> str:
+    r"""A variable in LaTeX: a letter with an index, a coordinate with its point; others as SymPy prints them.
+
+    >>> print(symbol_latex("c_A1"), symbol_latex("x_B"), symbol_latex("B1x"), symbol_latex("d3"))
+    c_{\mathrm{A1}} x_{B} x_{\mathrm{B1}} d_{3}
+    """
+    found = _COORDINATE.fullmatch(name) or _INDEXED.fullmatch(name)
+    if found is None:
+        return str(sympy.latex(sympy.Symbol(name)))
+    letter, index = found["letter"], (found["index"] or found["other"]).replace("_", ",")
+    plain = len(index) == 1 or index.isdigit()
+    return f"{letter}_{{{index}}}" if plain else f"{letter}_{{\\mathrm{{{index}}}}}"
 
 
 def polynomial_latex(polynomial: Polynomial, longest: int = 24) -> str:
     """A polynomial in LaTeX, cut after some terms with the number of those left out."""
     ring = polynomial.ring
-    names = {sympy.Symbol(name): _symbol_latex(name) for name in ring.names}
+    names = {sympy.Symbol(name): symbol_latex(name) for name in ring.names}
     if len(polynomial) <= longest:
         return str(sympy.latex(ring.to_sympy(polynomial), symbol_names=names))
     first = ring.to_sympy(ring.from_dict(dict(polynomial.terms()[:longest])))

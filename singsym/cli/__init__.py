@@ -1,0 +1,43 @@
+"""The command `singsym`: every artefact on stdout, everything else on stderr.
+
+Source: singsym's own; exit codes: 0 decided, 3 something undecided, 2 usage or bad input, 130 interrupted.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+
+from singsym.cli.screen import UserError, say
+
+USAGE, INTERRUPTED, BROKEN_PIPE = 2, 130, 141
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command and return its exit code; `SystemExit` for usage errors and `--help`, as argparse does.
+
+    >>> main(["classes", "--n", "1", "--format", "json"])  # doctest: +ELLIPSIS
+    {"n": 1, ...
+    0
+    """
+    from singsym.cli.parser import parser
+
+    chosen = parser().parse_args(arguments)
+    if chosen.run is None:
+        parser().print_help()
+        return USAGE
+    try:
+        code: int = chosen.run(chosen)
+        sys.stdout.flush()
+    except UserError as error:
+        say(f"singsym {chosen.command}: {error}")
+        return USAGE
+    except BrokenPipeError:
+        # the reader of the pipe has gone; the flush at exit would complain again
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return BROKEN_PIPE
+    except KeyboardInterrupt:
+        say(f"singsym {chosen.command}: interrupted{chosen.on_interrupt}")
+        return INTERRUPTED
+    return code

@@ -1,0 +1,100 @@
+"""What reaches the screen: pages and documents on stdout, progress and messages on stderr.
+
+Source: rich (https://rich.readthedocs.io) on terminals, plain text in pipes.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from singsym.elimination.progress import Event
+    from singsym.output.page import Page
+
+
+class UserError(Exception):
+    """What the user can put right, as one paragraph."""
+
+
+def say(text: str) -> None:
+    """A message on stderr."""
+    print(text, file=sys.stderr)
+
+
+def emit_data(data: Any) -> None:
+    """JSON on stdout, in one line for a pipe and indented for a terminal."""
+    print(json.dumps(data, indent=2 if sys.stdout.isatty() else None, ensure_ascii=False))
+
+
+def emit_page(page: Page) -> None:
+    """A page on stdout: rich tables on a terminal, aligned text elsewhere."""
+    if not sys.stdout.isatty():
+        from singsym.output.page import plain
+
+        print(plain(page))
+        return
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    console = Console(highlight=False)
+    for block in page:
+        if isinstance(block, str):
+            console.print(Text(block))
+        else:
+            table = Table(title=block.title or None, title_justify="left", box=box.SIMPLE_HEAD)
+            for header in block.headers:
+                table.add_column(Text(header))
+            for row in block.rows:
+                table.add_row(*(Text(cell) for cell in row))
+            console.print(table)
+        console.print()
+
+
+@contextmanager
+def progress_shown() -> Iterator[list[str]]:
+    """Show the events of the work inside on stderr, one line that changes; nothing where it is no terminal.
+
+    Yields the stages that were begun, for what to say of an interrupted run.
+    """
+    from singsym.elimination import progress
+
+    stages: list[str] = []
+
+    def note(event: Event) -> None:
+        if event.stage != "engine" and event.stage not in stages[-1:]:
+            stages.append(event.stage)
+
+    if not sys.stderr.isatty():
+        with progress.to(note):
+            yield stages
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, SpinnerColumn, TextColumn
+    from rich.progress import TimeElapsedColumn as Elapsed
+
+    columns = (
+        SpinnerColumn(),
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        Elapsed(),
+    )
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("starting", total=None)
+
+        def show(event: Event) -> None:
+            note(event)
+            described = f"{event.stage}: {event.detail}" if event.detail else event.stage
+            if event.done is None:
+                bar.update(task, description=described[:70])
+            else:
+                bar.update(task, description=described[:70], completed=event.done, total=event.total)
+
+        with progress.to(show):
+            yield stages

@@ -1,0 +1,88 @@
+"""The commands about singularities: conditions, classes, classify, solve, at.
+
+Source: sections 2.3, 3.1 and 3.2 of Zlatanov, Fenton, Benhabib (1998).
+"""
+
+from __future__ import annotations
+
+import argparse
+
+from singsym.cli.mechanisms import placed, read
+from singsym.cli.screen import emit_data, emit_page
+
+UNDECIDED = 3
+
+
+def run_conditions(chosen: argparse.Namespace) -> int:
+    """`singsym conditions MECHANISM`."""
+    from singsym.elimination.conditions import conditions
+
+    mechanism = read(chosen)
+    found = conditions(placed(mechanism, chosen.formulation))
+    if chosen.format == "json":
+        from singsym.output.data import conditions_data
+
+        emit_data(conditions_data(mechanism.name, found))
+    elif chosen.format == "latex":
+        from singsym.output.latex import conditions_latex, document
+
+        body = conditions_latex(found, mechanism)
+        print(document(body, mechanism.title or mechanism.name) if chosen.standalone else body)
+    else:
+        from singsym.output.text import conditions_page
+
+        emit_page((mechanism.name, *conditions_page(found)))
+    return 0
+
+
+def run_classes(chosen: argparse.Namespace) -> int:
+    """`singsym classes [--n N]`."""
+    from singsym.classes.types import table
+
+    found = table(chosen.n)
+    if chosen.format == "json":
+        from singsym.output.data import classes_data
+
+        emit_data(classes_data(found, chosen.n))
+    elif chosen.format == "latex":
+        from singsym.output.latex import classes_latex, document
+
+        body = classes_latex(found, chosen.n)
+        print(document(body, "Classes of singular configurations") if chosen.standalone else body)
+    else:
+        from singsym.output.text import classes_page
+
+        emit_page(classes_page(found, chosen.n))
+    return 0
+
+
+def run_classify(chosen: argparse.Namespace) -> int:
+    """`singsym classify MECHANISM`."""
+    from singsym.classes.classify import Limits, classify
+    from singsym.cli.screen import progress_shown
+    from singsym.elimination import engines
+
+    mechanism = read(chosen)
+    placed(mechanism, chosen.formulation)
+    if chosen.cache:
+        chosen.on_interrupt = "; finished parts are kept: the same command goes on from there"
+    with engines.use(*chosen.engines), progress_shown():
+        result = classify(
+            mechanism,
+            formulation=chosen.formulation,
+            workers=chosen.workers,
+            limits=Limits(seconds=chosen.budget),
+            cache=chosen.cache,
+        )
+    if chosen.format == "json":
+        emit_data(result.as_json())
+    elif chosen.format == "latex":
+        from singsym.output.latex import classification_latex, document
+
+        body = classification_latex(result)
+        print(document(body, mechanism.title or mechanism.name) if chosen.standalone else body)
+    else:
+        from singsym.output.text import classification_page
+
+        emit_page(classification_page(result))
+    return UNDECIDED if result.undecided else 0

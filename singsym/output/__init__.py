@@ -1,0 +1,1 @@
+"""What a person sees: text, LaTeX and plain data of conditions, classes and configurations."""

@@ -1,0 +1,303 @@
+"""Mechanisms, conditions and classifications in LaTeX, for amsmath and booktabs.
+
+Source: the layouts of Tables 1 and 2 of Zlatanov, Fenton, Benhabib (1998).  Formulas that may be long are
+set in the line, where TeX breaks them after operators.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from singsym.elimination.conditions import polynomial_latex, symbol_latex
+
+if TYPE_CHECKING:
+    from singsym.classes.result import Classification, ClassResult, Locus
+    from singsym.classes.types import Table
+    from singsym.elimination.conditions import Condition, Conditions, Factor
+    from singsym.kinematics.velocity import Column, VelocityEquation
+    from singsym.mechanism.model import Mechanism
+    from singsym.polynomials import Polynomial, PolynomialMatrix
+
+LONG_ENTRY = 4
+"""An entry of a matrix with more terms gets a name, and is printed below the matrix."""
+
+_PREAMBLE = r"""\documentclass[a4paper,10pt]{article}
+\usepackage[T1]{fontenc}
+\usepackage[utf8]{inputenc}
+\usepackage{lmodern}
+\usepackage[margin=22mm]{geometry}
+\usepackage{amsmath,amssymb,array,booktabs,longtable,graphicx}
+\newsavebox{\fitbox}
+\newcommand{\fitted}[1]{\par\medskip\noindent\sbox{\fitbox}{#1}%
+  \ifdim\wd\fitbox>\linewidth\resizebox{\linewidth}{!}{\usebox{\fitbox}}\else\hfil\usebox{\fitbox}\fi\par\medskip}
+\relpenalty=50 \binoppenalty=100 \emergencystretch=3em
+\setlength{\parindent}{0pt} \setlength{\parskip}{3pt plus 1pt}
+\raggedright
+"""
+
+_SPECIAL = str.maketrans(
+    {
+        "\\": r"\textbackslash{}",
+        "{": r"\{",
+        "}": r"\}",
+        "&": r"\&",
+        "%": r"\%",
+        "$": r"\$",
+        "#": r"\#",
+        "_": r"\_",
+        "~": r"\textasciitilde{}",
+        "^": r"\textasciicircum{}",
+        "<": r"\textless{}",
+        ">": r"\textgreater{}",
+    }
+)
+
+
+def escaped(text: str) -> str:
+    """Text from a file or a message as LaTeX text; what the fonts lack becomes a question mark.
+
+    >>> print(escaped("50 % of A_1 & B"))
+    50 \\% of A\\_1 \\& B
+    """
+    return "".join(c if c.isprintable() and ord(c) < 0x180 else "?" for c in text).translate(_SPECIAL)
+
+
+def document(body: str, title: str) -> str:
+    """A whole document around the LaTeX of a result."""
+    head = f"{_PREAMBLE}\\title{{{escaped(title)}}}\\author{{}}\\date{{}}\n"
+    return f"{head}\\begin{{document}}\n\\maketitle\n{_without_fit(body)}\n\\end{{document}}"
+
+
+def _without_fit(body: str) -> str:
+    """The body with matrices scaled to the line, by a macro of the document's preamble."""
+    return re.sub(r"\\\[(\\begin\{array\}.*?\\end\{array\})\\\]", r"\\fitted{$\1$}", body, flags=re.DOTALL)
+
+
+# -- the mechanism -----------------------------------------------------------------------------------
+
+
+def mechanism_latex(mechanism: Mechanism, equation: VelocityEquation) -> str:
+    """What the mechanism is, its loop equations and L."""
+    return "\n\n".join([_description(mechanism), *_loops(equation), *_velocity(equation)])
+
+
+def _description(mechanism: Mechanism) -> str:
+    from singsym.output.text import output_text
+
+    parts = [f"{mechanism.description.strip()}" if mechanism.description else ""]
+    inputs = ", ".join(mechanism.inputs)
+    outputs = "; ".join(output_text(o) for o in mechanism.outputs)
+    parts.append(f"Inputs: {inputs}. Output: {outputs}.")
+    if mechanism.source:
+        parts.append(f"Source: {mechanism.source}.")
+    return "\n\n".join(escaped(part) for part in parts if part)
+
+
+def _loops(equation: VelocityEquation) -> list[str]:
+    space = equation.space
+    names = ", ".join(f"${polynomial_latex(space.ring.gen(v))}$" for v in space.variables)
+    lines = [r"\section*{Configuration space}", f"Variables: {names}."]
+    if space.equations:
+        equations = ",\n".join(f"${polynomial_latex(e)} = 0$" for e in space.equations)
+        lines.append(f"Loop equations: {equations}.")
+    feasible = [f"${polynomial_latex(p)} > 0$" for p in space.positive]
+    feasible += [f"${polynomial_latex(p)} \\ge 0$" for p in space.nonnegative]
+    feasible += [
+        f"$({', '.join(polynomial_latex(p, 6) for p in group)}) \\ne 0$" for group in space.exclusions
+    ]
+    if feasible:
+        lines.append(f"Feasible: {', '.join(feasible)}.")
+    return lines
+
+
+def _velocity(equation: VelocityEquation) -> list[str]:
+    text = (
+        f"Velocity equation $L\\,m = 0$ with $N = {equation.N}$, $n = {equation.n}$; inputs are underlined."
+    )
+    return [r"\section*{Velocity equation}", text, *matrix_latex("L", equation.L, equation.columns)]
+
+
+def matrix_latex(name: str, matrix: PolynomialMatrix, columns: Sequence[Column]) -> list[str]:
+    """A matrix with its columns' labels; long entries are named in it and follow it.
+
+    >>> from singsym.kinematics.velocity import velocity_equation
+    >>> from singsym.mechanism import load
+    >>> equation = velocity_equation(load("fourbar"))
+    >>> print(matrix_latex("L", equation.L, equation.columns)[0].splitlines()[2])
+     & \\mathrm{T.D} & \\underline{\\mathrm{A}} & \\mathrm{B} & \\mathrm{C} & \\mathrm{D} \\\\
+    """
+    named: list[str] = []
+
+    def cell(i: int, j: int, entry: Polynomial) -> str:
+        if not entry:
+            return r"\cdot"
+        if len(entry) <= LONG_ENTRY:
+            return polynomial_latex(entry)
+        symbol = rf"\ell_{{{i + 1},{j + 1}}}"
+        named.append(f"${symbol} = {polynomial_latex(entry)}$")
+        return symbol
+
+    label = {"input": r"\underline{\mathrm{%s}}"}
+    heads = [label.get(c.role, r"\mathrm{%s}") % c.label.replace("_", r"\_") for c in columns]
+    rows = [" & ".join(cell(i, j, e) for j, e in enumerate(row)) for i, row in enumerate(matrix.rows)]
+    body = " \\\\\n".join(f" & {row}" for row in rows)
+    array = (
+        f"\\[\\begin{{array}}{{r|{'c' * matrix.width}}}\n"
+        f"{name}\n & {' & '.join(heads)} \\\\\n\\hline\n{body}\n\\end{{array}}\\]"
+    )
+    return [array, *named]
+
+
+# -- conditions --------------------------------------------------------------------------------------
+
+
+def conditions_latex(conditions: Conditions, mechanism: Mechanism | None = None) -> str:
+    """The loop equations, L, the reduction with its record, and (4), (5), (i)-(viii)."""
+    equation, reduction = conditions.equation, conditions.reduction
+    parts = [_description(mechanism)] if mechanism is not None else []
+    parts += [*_loops(equation), *_velocity(equation)]
+    parts += [r"\section*{Reduction}", *reduction_latex(conditions)]
+    parts += matrix_latex(r"L", reduction.equation.L, reduction.equation.columns)
+    parts += [r"\section*{Conditions}", *(condition_latex(c) for c in conditions)]
+    return "\n\n".join(parts)
+
+
+def reduction_latex(conditions: Conditions) -> list[str]:
+    """The record of the reduction: which passive velocities went, and why that is allowed."""
+    reduction = conditions.reduction
+    items = []
+    for step in reduction.record:
+        which = ", ".join(step.columns)
+        rows = escaped(", ".join(step.rows))
+        by = f"by row {rows}, pivot" if len(step.rows) == 1 else f"from rows {rows}, sum of squares"
+        reason = "" if step.pivot.is_constant else f": {escaped(step.reason)}"
+        items.append(f"\\item {escaped(which)} {by} ${polynomial_latex(step.pivot, 8)}${reason}")
+    size = r" \times ".join(map(str, reduction.equation.matrix.shape))
+    last = f"Every rank is that of the reduced matrix (${size}$) plus {reduction.constant}."
+    return ["\\begin{itemize}\n" + "\n".join(items) + "\n\\end{itemize}", last] if items else [last]
+
+
+def condition_latex(condition: Condition) -> str:
+    """One condition with its factors, each with its name and in words where it has them."""
+    head = rf"\textbf{{({condition.label})}}\enspace ${condition.latex_statement}$ \quad ({condition.types})"
+    if condition.everywhere:
+        return f"{head}, in every configuration."
+    if condition.alternatives is None:
+        return f"{head}."
+    if not condition.alternatives:
+        return f"{head}, in no configuration.{_units(condition)}"
+    lines = [_alternative(a) for a in condition.alternatives]
+    items = "\n".join(rf"\item[{'if' if place == 0 else 'or'}] {line}" for place, line in enumerate(lines))
+    return f"{head}\n\\begin{{itemize}}\n{items}\n\\end{{itemize}}{_units(condition)}"
+
+
+def _units(condition: Condition) -> str:
+    said = [f"${polynomial_latex(u.polynomial, 6)}$ ({escaped(u.reason)})" for u in condition.units]
+    return f"\nFactors without a feasible zero are left out: {'; '.join(said)}." if said else ""
+
+
+def _alternative(factors: Iterable[Factor]) -> str:
+    return r" \emph{and} ".join(_factor(f) for f in factors)
+
+
+def _factor(factor: Factor) -> str:
+    shown = polynomial_latex(factor.polynomial)
+    if factor.name is None:
+        return f"${shown} = 0$"
+    return f"${factor.name.latex} = {shown} = 0$, {escaped(factor.words)}"
+
+
+# -- classes -----------------------------------------------------------------------------------------
+
+
+def classes_latex(table: Table, n: int) -> str:
+    """Table 1 for mobility n, with the numbers of the classes."""
+    heads = " & ".join(escaped(str(c)) for c in table.columns)
+    rows = " \\\\\n".join(
+        f"{row} & " + " & ".join("" if c is None else str(c.number) for c in cells)
+        for row, cells in zip(table.rows, table.cells, strict=True)
+    )
+    count = sum(c is not None for cells in table.cells for c in cells)
+    more = " or more" if n >= 3 else ""
+    head = f"The {count} classes of singular configurations for $n = {n}${more}; no number: impossible."
+    return (
+        f"{head}\n\n\\begin{{center}}\\begin{{tabular}}{{l{'c' * len(table.columns)}}}\n"
+        f"\\toprule\n & {heads} \\\\\n\\midrule\n{rows} \\\\\n\\bottomrule\n"
+        "\\end{tabular}\\end{center}"
+    )
+
+
+def classification_latex(result: Classification) -> str:
+    """The mechanism, L, the reduction, the conditions, and the classes in the layout of Table 2."""
+    from singsym.elimination.conditions import conditions
+
+    found = conditions(result.equation, result.reduction)
+    parts = [conditions_latex(found, result.mechanism)]
+    if result.loci:
+        parts += [r"\section*{Singularity set}", _loci(result.loci)]
+    parts += [r"\section*{Classes}", _class_table(result.classes)]
+    parts += [_class(c) for c in result.classes if c.verdict.is_yes]
+    doubts = [c for c in result.classes if c.verdict.is_undecided]
+    if doubts:
+        items = "\n".join(f"\\item ({c.types}): {escaped(c.verdict.reason)}" for c in doubts)
+        parts += [r"\subsection*{Undecided}", f"\\begin{{itemize}}\n{items}\n\\end{{itemize}}"]
+    return "\n\n".join(parts)
+
+
+def _count(number: int | None) -> str:
+    return "" if number is None else r"empty" if number == -1 else str(number)
+
+
+def _loci(loci: Sequence[Locus]) -> str:
+    rows = " \\\\\n".join(
+        f"({x.condition}) & {_locus_name(x)} & {_count(x.dimension)} & {_count(x.components)}" for x in loci
+    )
+    return (
+        "\\begin{longtable}{@{}l>{\\raggedright\\arraybackslash}p{.6\\linewidth}cc@{}}\n\\toprule\n"
+        " & locus & dimension & components \\\\\n\\midrule\n\\endhead\n"
+        f"{rows} \\\\\n\\bottomrule\n\\end{{longtable}}"
+    )
+
+
+def _locus_name(locus: Locus) -> str:
+    shown = f"${polynomial_latex(locus.factor, 8)} = 0$"
+    return escaped(locus.words) if locus.words else shown
+
+
+def _class_table(classes: Sequence[ClassResult]) -> str:
+    rows = " \\\\\n".join(
+        f"{c.singularity_class.number} & {c.types} & {c.verdict.answer} & "
+        f"{'' if c.verdict.is_undecided else c.verdict.certainty} & {_count(c.dimension)} & "
+        f"{_count(c.points)} & {_count(c.components)} & {', '.join(c.steps)}"
+        for c in classes
+    )
+    return (
+        "\\begin{longtable}{@{}rlllcccl@{}}\n\\toprule\n"
+        " & types & there? & known by & dimension & points & components & step \\\\\n\\midrule\n\\endhead\n"
+        f"{rows} \\\\\n\\bottomrule\n\\end{{longtable}}"
+    )
+
+
+def _class(result: ClassResult) -> str:
+    """A class that occurs: equations of its pieces, and one configuration."""
+    head = f"\\subsection*{{{result.singularity_class.number}\\quad ({result.types})}}"
+    items = dict.fromkeys(
+        rf"\item ${_equations(piece.path)}$"
+        + f", dimension {_count(piece.dimension)}"
+        + (f", {piece.points} points" if piece.points is not None else "")
+        for piece in result.pieces
+    )
+    listed = "\\begin{itemize}\n" + "\n".join(items) + "\n\\end{itemize}"
+    shown = [f"For instance {_configuration(w.points or w.coordinates)}." for w in result.witnesses[:1]]
+    return "\n".join([head, listed, *shown])
+
+
+def _equations(path: Sequence[Polynomial]) -> str:
+    return r" = 0,\; ".join(polynomial_latex(p, 8) for p in path) + " = 0" if path else r"\text{everywhere}"
+
+
+def _configuration(values: Mapping[str, str]) -> str:
+    pairs = [(symbol_latex(name.replace(".", "")), float(value)) for name, value in values.items()]
+    return ", ".join(f"${name} = {value:.6f}$" for name, value in pairs)

@@ -1,0 +1,291 @@
+"""Mechanisms, conditions, classes and configurations as pages of text.
+
+Source: the layouts of Tables 1 and 2 of Zlatanov, Fenton, Benhabib (1998).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
+
+from singsym.output.page import Block, Grid, Page
+
+if TYPE_CHECKING:
+    from singsym.classes.result import Classification, ClassResult, Configuration, Locus, SpacePiece
+    from singsym.classes.types import Table
+    from singsym.elimination.conditions import Condition, Conditions
+    from singsym.elimination.engines.registry import EngineStatus
+    from singsym.kinematics.mobility import Mobility
+    from singsym.kinematics.velocity import VelocityEquation
+    from singsym.mechanism.model import Joint, Mechanism, Output, Parameter
+    from singsym.polynomials import Polynomial, PolynomialMatrix
+
+LONGEST = 12
+"""Polynomials with more terms are cut, with the number of terms left out."""
+
+WIDEST = 30
+"""A matrix with a longer entry is not printed as a grid in the terminal."""
+
+
+def polynomial_text(polynomial: Polynomial, longest: int = LONGEST) -> str:
+    """A polynomial as text, cut after some terms.
+
+    >>> from singsym.polynomials import Ring
+    >>> x, y = Ring(("x", "y")).gens
+    >>> polynomial_text((x + y) ** 3, 2)
+    'x^3 + 3*x^2*y + ... (2 more terms)'
+    """
+    if len(polynomial) <= longest:
+        return str(polynomial)
+    first = polynomial.ring.from_dict(dict(polynomial.terms()[:longest]))
+    return f"{first} + ... ({len(polynomial) - longest} more terms)"
+
+
+_LOCI = ("condition", "factor", "dimension", "components", "points")
+_CLASSES = ("class", "types", "there?", "known by", "dimension", "points", "components", "step")
+
+# -- the mechanism -----------------------------------------------------------------------------------
+
+
+def library_page(mechanisms: Iterable[Mechanism]) -> Page:
+    """Names, titles and sources of mechanisms."""
+    rows = tuple((m.name, str(m.N), str(m.n), m.title, m.source) for m in mechanisms)
+    return (Grid(("name", "N", "n", "what it is", "source"), rows),)
+
+
+def mechanism_page(mechanism: Mechanism, equation: VelocityEquation) -> Page:
+    """A mechanism's parts, its loop equations and its velocity equation."""
+    space = equation.space
+    head = [f"{mechanism.name}: {mechanism.title}" if mechanism.title else mechanism.name]
+    if mechanism.description:
+        head.append(mechanism.description.strip())
+    if mechanism.source:
+        head.append(f"Source: {mechanism.source}")
+    inputs = ", ".join(mechanism.inputs)
+    outputs = "; ".join(output_text(o) for o in mechanism.outputs)
+    facts = [
+        f"{mechanism.space} mechanism, N = {equation.N}, n = {equation.n}",
+        f"Inputs: {inputs}",
+        f"Output: {outputs}",
+        *(f"Parameter: {_parameter_text(p)}" for p in mechanism.parameters),
+        *(f"Left out: {e.words or ' = '.join(e.points) or e.expression}" for e in mechanism.exclusions),
+    ]
+    joints = tuple(_joint_row(j, mechanism) for j in mechanism.joints)
+    variables = f"Configuration variables ({space.formulation}): {', '.join(space.variables)}"
+    equations = [f"  {polynomial_text(e)} = 0" for e in space.equations]
+    return (
+        "\n".join(head),
+        "\n".join(facts),
+        Grid(("joint", "kind", "between", "and", "point", "role"), joints),
+        "\n".join([variables, "Loop equations:", *equations]) if equations else variables,
+        *matrix_page("L", equation.L, equation.rows, [c.label for c in equation.columns]),
+    )
+
+
+def _joint_row(joint: Joint, mechanism: Mechanism) -> tuple[str, ...]:
+    active = [c for c in joint.columns if c in mechanism.inputs]
+    role = "input" if active == list(joint.columns) else ", ".join(active)
+    point = joint.at[0] if joint.at[0] == joint.at[1] else f"{joint.at[0]} / {joint.at[1]}"
+    return (joint.name, joint.kind.value, joint.first, joint.second, point, role or "passive")
+
+
+def output_text(output: Output) -> str:
+    """An output in words."""
+    from singsym.mechanism.model import JointRate, PointVelocity
+
+    if isinstance(output, JointRate):
+        return f"the rate of {output.column}"
+    components = ", ".join(output.components)
+    if isinstance(output, PointVelocity):
+        return f"the velocity of {output.point} ({components})"
+    return f"the twist of {output.link} at {output.point} ({components})"
+
+
+def _parameter_text(parameter: Parameter) -> str:
+    if parameter.value is not None:
+        return f"{parameter.name} = {parameter.value}"
+    low = "" if parameter.low is None else f"{parameter.low} < "
+    high = "" if parameter.high is None else f" < {parameter.high}"
+    return f"{low}{parameter.name}{high}"
+
+
+def mobility_page(name: str, equation: VelocityEquation, found: Mobility) -> Page:
+    """What `check` says: generic ranks against those of a nonsingular configuration."""
+    N, n = equation.N, equation.n
+    wanted = {"L": N, "L_I": N, "L_O": N, "L_p": N - n}
+    rows = tuple((key, str(rank), str(wanted[key])) for key, rank in found.ranks.items())
+    seen = f"{found.samples} random configurations, {found.regular} of them regular"
+    head = f"{name}: N = {N}, n = {n}; {seen}"
+    said = "\n".join(f"Problem: {m}" for m in found.messages) or "No problem found."
+    return (head, Grid(("matrix", "largest rank seen", "expected"), rows), said)
+
+
+def matrix_page(
+    name: str, matrix: PolynomialMatrix, rows: Sequence[str], columns: Sequence[str]
+) -> tuple[Block, ...]:
+    """A matrix as a grid with labels; only its size where an entry is long."""
+    cells = [[str(e) if e else "." for e in row] for row in matrix.rows]
+    size = f"{name}, {matrix.shape[0]}x{matrix.shape[1]}"
+    if any(len(cell) > WIDEST for row in cells for cell in row):
+        return (f"{size}: entries too long to print here; see --format latex or json",)
+    body = tuple((label, *row) for label, row in zip(rows, cells, strict=True))
+    return (Grid(("", *columns), body, size),)
+
+
+# -- conditions --------------------------------------------------------------------------------------
+
+
+def conditions_page(conditions: Conditions) -> Page:
+    """L, the reduction's record, and (4), (5), (i)-(viii) with their factors."""
+    equation, reduction = conditions.equation, conditions.reduction
+    reduced = reduction.equation
+    columns = [c.label for c in equation.columns]
+    return (
+        f"N = {equation.N}, n = {equation.n}",
+        *matrix_page("L", equation.L, equation.rows, columns),
+        "\n".join(["Reduction (section 4.2):", *(f"  {line}" for line in reduction.lines)]),
+        *matrix_page("L, reduced", reduced.L, reduced.rows, [c.label for c in reduced.columns]),
+        *(condition_text(c) for c in conditions),
+    )
+
+
+def condition_text(condition: Condition) -> str:
+    """One condition with what it amounts to."""
+    lines = [f"({condition.label}) {condition.statement}: {condition.types}"]
+    if condition.everywhere:
+        lines.append("  in every configuration")
+    elif condition.alternatives is not None and not condition.alternatives:
+        lines.append("  in no configuration")
+    elif condition.alternatives is None and condition.comparison is None:
+        lines.append("  left as a rank: no determinant or list of minors is short enough")
+    for place, alternative in enumerate(condition.alternatives or ()):
+        lead = "  if " if place == 0 else "  or "
+        for factor in alternative:
+            shown = polynomial_text(factor.polynomial)
+            if factor.name:
+                shown = f"{factor.name.text} = {shown}"
+            words = f"  ({factor.words})" if factor.words else ""
+            lines.append(f"{lead}{shown} = 0{words}")
+            lead = "     and "
+    lines += [f"  without the factor {unit}" for unit in condition.units]
+    return "\n".join(lines)
+
+
+# -- classes -----------------------------------------------------------------------------------------
+
+
+def classes_page(table: Table, n: int) -> Page:
+    """Table 1: the classes that mobility n allows, by number."""
+    rows = tuple(
+        (str(row), *(str(c.number) if c is not None else "." for c in cells))
+        for row, cells in zip(table.rows, table.cells, strict=True)
+    )
+    count = sum(c is not None for cells in table.cells for c in cells)
+    title = f"The {count} classes for n = {n}{' or more' if n >= 3 else ''} (a dot: impossible)"
+    return (Grid(("", *(str(c) for c in table.columns)), rows, title), _legend())
+
+
+def _legend() -> str:
+    """The abbreviations spelled out."""
+    from singsym.classes.types import SingularityClass, SingularityType
+
+    return "\n".join(f"{t}: {SingularityClass(0, t).words}" for t in SingularityType)
+
+
+def classification_page(result: Classification) -> Page:
+    """What was found, in the layout of Table 2, with loci, class by class and configurations."""
+    name = result.mechanism.name if result.mechanism is not None else "given equations"
+    equation = result.equation
+    head = f"{name}: N = {equation.N}, n = {equation.n}"
+    space = tuple(_space_row(piece) for piece in result.configuration_space)
+    loci = tuple(_locus_row(locus) for locus in result.loci)
+    rows = tuple(_class_row(c) for c in result.classes)
+    blocks: list[Block] = [head]
+    if space:
+        blocks.append(Grid(("dimension", "smooth", "remark"), space, "Configuration space"))
+    if loci:
+        blocks.append(Grid(_LOCI, loci, "The singularity set: loci of conditions (4) and (5)"))
+    blocks.append(Grid(_CLASSES, rows, "The classes"))
+    for found in result.classes:
+        if found.verdict.is_yes:
+            blocks.append(_class_text(found))
+    doubts = tuple((str(c.types), c.verdict.reason) for c in result.classes if c.verdict.is_undecided)
+    if doubts:
+        blocks.append(Grid(("types", "why"), doubts, "Undecided"))
+    blocks.append(f"Engines: {', '.join(result.engines)}; {result.seconds:.1f} s")
+    return tuple(blocks)
+
+
+def _count(number: int | None) -> str:
+    return "" if number is None else str(number)
+
+
+def _space_row(piece: SpacePiece) -> tuple[str, ...]:
+    return (_count(piece.dimension), piece.smooth, piece.remark)
+
+
+def _locus_row(locus: Locus) -> tuple[str, ...]:
+    shown = locus.words or polynomial_text(locus.factor, 6)
+    dimension = "?" if locus.verdict.is_undecided else _dimension(locus.dimension)
+    return (f"({locus.condition})", shown, dimension, _count(locus.components), _count(locus.points))
+
+
+def _dimension(dimension: int | None) -> str:
+    return "empty" if dimension == -1 else _count(dimension)
+
+
+def _class_row(result: ClassResult) -> tuple[str, ...]:
+    verdict = result.verdict
+    return (
+        str(result.singularity_class.number),
+        str(result.types),
+        str(verdict.answer),
+        "" if verdict.is_undecided else str(verdict.certainty),
+        _dimension(result.dimension),
+        _count(result.points),
+        _count(result.components),
+        ", ".join(result.steps),
+    )
+
+
+def _class_text(result: ClassResult) -> str:
+    """A class that occurs: its pieces by what vanishes on the way, and one configuration."""
+    lines = [f"{result.singularity_class.number} ({result.types})"]
+    known: set[str] = set()
+    for piece in result.pieces:
+        path = ", ".join(f"{polynomial_text(p, 6)} = 0" for p in piece.path) or "everywhere"
+        count = f", {piece.points} points" if piece.points is not None else ""
+        line = f"  dimension {_dimension(piece.dimension)}{count}: {path}"
+        if line not in known:
+            lines.append(line)
+        known.add(line)
+    lines += [f"  for instance {configuration_text(w)}" for w in result.witnesses[:1]]
+    return "\n".join(lines)
+
+
+def configuration_text(found: Configuration, digits: int = 7) -> str:
+    """A certified configuration on one line: named points, else the variables; joint values after them."""
+
+    def shorter(values: Iterable[tuple[str, str]]) -> str:
+        return ", ".join(f"{name} = {float(value):.{digits}g}" for name, value in values)
+
+    named = shorter(found.points.items()) or shorter(found.coordinates.items())
+    joints = shorter(found.joints.items())
+    return f"{named}; {joints}" if joints else named
+
+
+# -- engines -----------------------------------------------------------------------------------------
+
+
+def engines_page(status: Iterable[EngineStatus]) -> Page:
+    """Which engines there are, what each is for, and how to get the missing ones."""
+    engines = tuple(status)
+    rows = tuple(
+        (e.name, "yes" if e.found else "no", e.version, e.licence, e.used_for, e.path) for e in engines
+    )
+    missing = [e for e in engines if not e.found]
+    blocks: list[Block] = [Grid(("engine", "there", "version", "licence", "used for", "path"), rows)]
+    if missing:
+        names = ", ".join(e.name for e in missing)
+        blocks.append(f"Missing: {names}. To get them: {missing[0].how_to_get}")
+    return tuple(blocks)
