@@ -20,6 +20,9 @@ from singsym.polynomials import Polynomial
 LONGEST = 400
 """Polynomials with more terms are not treated modulo the equations."""
 
+LONGEST_SUM = 40
+"""The sign of longer sums is not looked for."""
+
 Bound = Fraction | float
 Interval = tuple[Bound, Bound]
 
@@ -171,7 +174,7 @@ class Certifier:
             return found
         if len(polynomial) > LONGEST:
             return None
-        for form in dict.fromkeys((polynomial, *self.forms(polynomial), self.shorten(polynomial))):
+        for form in dict.fromkeys((polynomial, self.shorten(polynomial), *self.forms(polynomial))):
             factors = form.factors()
             if len(factors) > 1 or (factors and factors[0][1] > 1):
                 reasons = [self._prove_irreducible(f) for f, _ in factors]
@@ -200,7 +203,7 @@ class Certifier:
             if any(form and form.divides(positive) for form in forms):
                 return f"a divisor of {short_text(positive)} > 0"
         for form in forms:
-            if (found := self._sign(form)) is not None:
+            if len(form) <= LONGEST_SUM and (found := self._sign(form)) is not None:
                 return found
         return self._excluded(polynomial, tuple(forms))
 

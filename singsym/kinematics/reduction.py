@@ -29,6 +29,12 @@ if TYPE_CHECKING:
 LARGEST_BLOCK = 3
 """Up to this many columns are eliminated together: the spins of a spherical joint."""
 
+LONGEST_BLOCK = 160
+"""Blocks with more terms in all their entries are not tried."""
+
+LONGEST_PAIR = 12
+"""Two entries with more terms together are not tried as a pair."""
+
 
 @dataclass(frozen=True)
 class Elimination:
@@ -122,13 +128,18 @@ class _Elimination:
 
     # -- single pivots -------------------------------------------------------------------------------
 
-    def _group(self, j: int) -> int:
-        """How many columns of the same joint are left: spins of a spherical joint go before single pins."""
-        joint = self.column_labels[self.columns[j]].split(".")[0]
-        return sum(self.column_labels[c].split(".")[0] == joint for c in self.columns)
+    def _group(self, j: int) -> tuple[bool, int]:
+        """Spins of a spherical joint go before single pins, and one joint after another."""
+        joint = self._joint(self.columns[j])
+        left = sum(self._joint(c) == joint for c in self.columns)
+        size = sum(label.split(".")[0] == joint for label in self.column_labels)
+        return not left < size, -size
+
+    def _joint(self, column: int) -> str:
+        return self.column_labels[column].split(".")[0]
 
     def _pivot(self) -> bool:
-        best: tuple[tuple[int, ...], int, int] | None = None
+        best: tuple[tuple[float, ...], int, int] | None = None
         for j in self._eligible():
             support = self._column(j)
             group = self._group(j)
@@ -139,7 +150,7 @@ class _Elimination:
                 degree = max(
                     max(e.total_degree for e in row), *(self.entries[k][j].total_degree for k in support)
                 )
-                key = (int(not entry.is_constant), -group, cost, degree, i, j)
+                key = (not entry.is_constant, *group, cost, degree, i, j)
                 if (best is None or key < best[0]) and self.certifier.reason(entry) is not None:
                     best = key, i, j
         if best is None:
@@ -171,6 +182,8 @@ class _Elimination:
     def _block(self) -> bool:
         for rows, columns in self._blocks():
             block = [[self.entries[i][j] for j in columns] for i in rows]
+            if sum(len(e) for row in block for e in row) > LONGEST_BLOCK:
+                continue
             if len(rows) == len(columns):
                 pivot = self.certifier.shorten(_small_determinant(block, self.ring.one))
                 kernel = None
@@ -196,6 +209,8 @@ class _Elimination:
         for j in self._eligible():
             for i, k in combinations(self._column(j), 2):
                 v, w = self.entries[i][j], self.entries[k][j]
+                if len(v) + len(w) > LONGEST_PAIR:
+                    continue
                 if self.certifier.reason(pivot := self.certifier.shorten(v * v + w * w)) is None:
                     continue
                 self._note((j,), (i, k), pivot)
@@ -218,17 +233,20 @@ class _Elimination:
     # -- common --------------------------------------------------------------------------------------
 
     def _tidy(self, row: list[Polynomial]) -> list[Polynomial]:
-        """The row in short forms, divided by its content where that is nonzero everywhere."""
-        row = [self.certifier.shorten(e) for e in row]
-        content = _rational_content(row)
+        """The row in short forms, divided by its content where that is nonzero everywhere.
+
+        The content is taken out before and after, because short forms of the entries may hide it.
+        """
+        return self._primitive([self.certifier.shorten(e) for e in self._primitive(row)])
+
+    def _primitive(self, row: list[Polynomial]) -> list[Polynomial]:
         common = self.ring.zero
         for e in row:
             common = common.gcd(e) if common else e
-        if common.is_constant or self.certifier.reason(common) is None:
-            return [e * content for e in row]
-        common = common.primitive()
-        content = _rational_content([e.exact_quotient(common) for e in row])
-        return [e.exact_quotient(common) * content for e in row]
+        if not common.is_constant and self.certifier.reason(common) is not None:
+            row = [e.exact_quotient(common) for e in row]
+        content = _rational_content(row)
+        return [e * content for e in row]
 
     def _note(self, columns: Sequence[int], rows: Sequence[int], pivot: Polynomial) -> None:
         self.record.append(

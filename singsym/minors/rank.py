@@ -223,7 +223,7 @@ def alternatives(minors: Minors, certifier: Certifier) -> Minors | None:
 
 def _may_vanish(polynomials: Iterable[Polynomial], certifier: Certifier) -> bool:
     """False where some of them are proved, by their sum of squares, not to vanish together."""
-    short = [p for p in polynomials if len(p) <= 12]
+    short = [p for p in polynomials if len(p) <= 3]
     groups = (group for size in (2, 3) for group in combinations(short, size))
     return all(certifier.reason(sum((p * p for p in g[1:]), start=g[0] * g[0])) is None for g in groups)
 
