@@ -21,6 +21,7 @@ from singsym.classes.types import SingularityClass, SingularityType, feasible_cl
 from singsym.classes.work import Cache, Runner, cache_folder, processes
 from singsym.elimination import engines
 from singsym.elimination.conditions import Conditions, Factor, conditions, polynomial_latex
+from singsym.elimination.ideal import Ideal
 from singsym.elimination.verdict import Verdict
 from singsym.kinematics.reduction import reduce
 from singsym.kinematics.velocity import VelocityEquation, velocity_equation
@@ -176,8 +177,8 @@ class _Work:
         return tuple(loci)
 
     def _locus(self, label: str, factor: Factor, explored: Exploration, pieces: Sequence[Piece]) -> Locus:
-        """What the pieces with this factor on their path say of its zero set."""
-        inside = [p for p in pieces if factor.polynomial in p.path and p.dimension is not None]
+        """What the pieces on which this factor vanishes say of its zero set."""
+        inside = [p for p in pieces if p.dimension is not None and _vanishes(factor.polynomial, p)]
         doubts = [reason for branch, reason in explored.unexplored if factor.polynomial in branch.path]
         doubts += [p.verdict.reason for p in pieces if factor.polynomial in p.path and p.verdict.is_undecided]
         dimension = max((p.dimension for p in inside if p.dimension is not None), default=-1)
@@ -273,6 +274,11 @@ class _Work:
                 remark = f"every configuration is singular: {defects.types}"
             found.append(SpacePiece(piece.dimension, smooth, defects, piece.verdict, piece.basis, remark))
         return tuple(found)
+
+
+def _vanishes(polynomial: Polynomial, piece: Piece) -> bool:
+    """Whether a polynomial vanishes on a piece: by its path, or as a member of its ideal."""
+    return polynomial in piece.path or Ideal(polynomial.ring, piece.basis).contains(polynomial)
 
 
 def _with_components(locus: Locus, counted: Counted) -> Locus:
