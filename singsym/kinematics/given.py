@@ -114,7 +114,7 @@ class _Given:
         expression = sympy.sympify(entry, strict=True)
         if expression.has(sympy.sin, sympy.cos) and expression.free_symbols:
             expression = sympy.expand_trig(expression)
-            circular = expression.atoms(sympy.sin, sympy.cos)
+            circular = sorted(expression.atoms(sympy.sin, sympy.cos), key=str)
             replaced = {f: self._angle(f) for f in circular if f.free_symbols}
             expression = expression.xreplace(replaced)
         self.seen.append(expression)

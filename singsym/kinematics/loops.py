@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 import networkx
 
-from singsym.mechanism.model import Joint, Mechanism
+from singsym.mechanism.model import Joint, JointKind, Mechanism
 
 SignedJoint = tuple[Joint, int]
 """A joint and +1 where the way goes from its first link to its second, else -1."""
@@ -59,11 +59,40 @@ def loops(mechanism: Mechanism) -> tuple[tuple[SignedJoint, ...], ...]:
 
 
 def path(mechanism: Mechanism, link: str) -> tuple[SignedJoint, ...]:
-    """The shortest way from the ground to a link.
+    """A shortest way from the ground to a link, of several the one through most inputs.
+
+    Raises `ValueError` for a link that is not attached.
 
     >>> from singsym.mechanism import load
     >>> [(joint.name, sign) for joint, sign in path(load("2r"), "BC")]
     [('A', 1), ('B', 1)]
     """
-    nodes = networkx.shortest_path(_bipartite(mechanism), ("link", mechanism.ground), ("link", link))
-    return _signed(mechanism, nodes)
+    graph = _bipartite(mechanism)
+    start, end = ("link", mechanism.ground), ("link", link)
+    if end not in graph or not networkx.has_path(graph, start, end):
+        raise ValueError(f"link {link!r} is not attached to the ground by joints")
+    ways = [_signed(mechanism, nodes) for nodes in networkx.all_shortest_paths(graph, start, end)]
+    return min(ways, key=lambda way: _rank(mechanism, way))
+
+
+def point_path(mechanism: Mechanism, link: str, point: str) -> tuple[SignedJoint, ...]:
+    """The best way to any of the links that are pinned together at a point: it has one velocity.
+
+    >>> from singsym.mechanism import load
+    >>> [joint.name for joint, _ in point_path(load("zlatanov-2dof"), "CG", "G")]
+    ['E', 'F']
+    """
+    pins = networkx.Graph()
+    pins.add_node((link, point))
+    for joint in mechanism.joints:
+        if joint.kind in (JointKind.R, JointKind.U, JointKind.S):
+            pins.add_edge((joint.first, joint.at[0]), (joint.second, joint.at[1]))
+    owners = sorted({owner for owner, _ in networkx.node_connected_component(pins, (link, point))})
+    return min((path(mechanism, owner) for owner in owners), key=lambda way: _rank(mechanism, way))
+
+
+def _rank(mechanism: Mechanism, way: Sequence[SignedJoint]) -> tuple[int, int, list[int]]:
+    """Short ways first, then those through many inputs, then by the order of joints."""
+    active = sum(c in mechanism.inputs for joint, _ in way for c in joint.columns)
+    order = {joint.name: i for i, joint in enumerate(mechanism.joints)}
+    return len(way), -active, [order[joint.name] for joint, _ in way]

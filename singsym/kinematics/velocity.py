@@ -7,10 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Literal
 
 from singsym.kinematics.formulations import place
-from singsym.kinematics.loops import loops, path
+from singsym.kinematics.loops import loops, path, point_path
 from singsym.kinematics.placement import ConfigurationSpace, Coordinates, JointValue, Placement
 from singsym.mechanism.model import JointRate, Mechanism, Output, PointVelocity, Space
 from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
@@ -152,9 +153,11 @@ def _output_rows(
     ring = placed.space.ring
     if isinstance(output, JointRate):
         return [(output.column, {output.column: ring.one})]
+    pointwise = isinstance(output, PointVelocity) and mechanism.space is not Space.SPHERICAL
+    find = partial(point_path, point=output.point) if pointwise else path
     twist = {
         column: tuple(e * sign for e in placed.screws[column])
-        for joint, sign in path(mechanism, output.link)
+        for joint, sign in find(mechanism, output.link)
         for column in joint.columns
     }
     names = _AXES[mechanism.space]
