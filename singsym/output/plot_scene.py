@@ -26,17 +26,19 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """A link: the places of those of its points that joints and outputs use."""
+    """A link: the places of those of its points that joints and outputs use; `held`: those of joints."""
 
     name: str
     points: Mapping[str, Floats]
+    held: frozenset[str]
     ground: bool
     output: bool
 
     @property
     def places(self) -> Floats:
-        """Its points that lie apart, one a row."""
-        return distinct(self.points.values())
+        """Its corners: the joints' points that lie apart, or all points where that is one; one a row."""
+        corners = distinct(p for name, p in self.points.items() if name in self.held)
+        return corners if len(corners) > 1 else distinct(self.points.values())
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,11 +116,17 @@ class Stage:
         return place(self.mechanism, self.equation.space.formulation or "auto")
 
     @cached_property
+    def _held(self) -> set[tuple[str, str]]:
+        """The link points at joints."""
+        ends = [((j.first, j.at[0]), (j.second, j.at[1])) for j in self.mechanism.joints]
+        return {end for pair in ends for end in pair}
+
+    @cached_property
     def _used(self) -> dict[tuple[str, str], tuple[Polynomial, ...]]:
         """The link points that joints and outputs use."""
-        wanted = {(j.first, j.at[0]) for j in self.mechanism.joints}
-        wanted |= {(j.second, j.at[1]) for j in self.mechanism.joints}
-        wanted |= {(o.link, o.point) for o in self.mechanism.outputs if not isinstance(o, JointRate)}
+        wanted = self._held | {
+            (o.link, o.point) for o in self.mechanism.outputs if not isinstance(o, JointRate)
+        }
         return {key: place for key, place in self.placement.link_points.items() if key in wanted}
 
     @cached_property
@@ -171,6 +179,7 @@ class Stage:
             Body(
                 link.name,
                 {name: p for (owner, name), p in placed.items() if owner == link.name},
+                frozenset(name for owner, name in self._held if owner == link.name),
                 link.name == self.mechanism.ground,
                 link.name in moved,
             )

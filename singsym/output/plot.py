@@ -1,0 +1,131 @@
+"""Pictures of mechanisms, of their singular configurations with null motions, of loci and of strata.
+
+Source: Figs 1-12 of Zlatanov, Fenton, Benhabib (1998).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from singsym.classes.types import Defects, SingularityType
+from singsym.kinematics.velocity import VelocityEquation
+from singsym.mechanism.model import Mechanism, Space
+from singsym.output.plot_style import Picture
+
+if TYPE_CHECKING:
+    from singsym.classes.result import Classification, ClassResult
+    from singsym.output.plot_motion import Motion
+    from singsym.output.plot_scene import Floats, Stage
+
+
+def plot_mechanism(
+    mechanism: Mechanism,
+    coordinates: Mapping[str, str | float] | None = None,
+    *,
+    equation: VelocityEquation | None = None,
+    seed: int = 0,
+) -> Picture:
+    """A mechanism drawn at a configuration.
+
+    coordinates: the configuration variables by name (as in `Configuration.coordinates`); None: some
+        configuration, found numerically from `seed`.
+    Raises `ValueError` where coordinates are missing or no configuration was found.
+
+    >>> from singsym.mechanism import load
+    >>> plot_mechanism(load("fourbar")).title
+    'Four-bar linkage'
+    """
+    from singsym.output.plot_scene import Stage
+
+    stage = Stage.of(mechanism, equation)
+    point = stage.sample(seed) if coordinates is None else stage.vector(coordinates)
+    title = mechanism.title or mechanism.name
+    return _drawn(stage, point, (), title, f"{title}, {_words(mechanism)}")
+
+
+def plot_class(
+    classification: Classification, result: ClassResult | SingularityType, witness: int = 0
+) -> Picture:
+    """A class at one of its certified configurations, with its null motions as arrows.
+
+    Raises `ValueError` where the class has no such configuration, or no mechanism was given.
+    """
+    from singsym.output.plot_motion import null_motions
+
+    stage = _stage(classification)
+    found = classification.of(result) if isinstance(result, SingularityType) else result
+    shown = [(w, piece) for piece in found.pieces for w in piece.witnesses]
+    if witness >= len(shown):
+        raise ValueError(
+            f"class {found.singularity_class}: {len(shown)} configurations known, no {witness + 1}th"
+        )
+    configuration, piece = shown[witness]
+    point = stage.vector(configuration.coordinates)
+    motions = null_motions(stage.equation, point, piece.defects)
+    title = f"Class {found.singularity_class.number} ({found.singularity_class.name})"
+    return _drawn(stage, point, motions, title, _class_words(stage, title, motions))
+
+
+def plot_configuration(
+    mechanism: Mechanism,
+    coordinates: Mapping[str, str | float],
+    defects: Defects,
+    *,
+    equation: VelocityEquation | None = None,
+) -> Picture:
+    """A mechanism at a configuration with these rank defects, its null motions as arrows."""
+    from singsym.output.plot_motion import null_motions
+    from singsym.output.plot_scene import Stage
+
+    stage = Stage.of(mechanism, equation)
+    point = stage.vector(coordinates)
+    motions = null_motions(stage.equation, point, defects)
+    title = str(defects.types)
+    return _drawn(stage, point, motions, title, _class_words(stage, title, motions))
+
+
+def _stage(classification: Classification) -> Stage:
+    from singsym.output.plot_scene import Stage
+
+    if classification.mechanism is None:
+        raise ValueError("equations were given without a mechanism: there is nothing to draw")
+    return Stage.of(classification.mechanism, classification.equation)
+
+
+def _drawn(stage: Stage, point: Floats, motions: Sequence[Motion], title: str, description: str) -> Picture:
+    from singsym.output.plot_style import INK, MOTION, canvas
+
+    planar = stage.mechanism.space is Space.PLANAR
+    figure = canvas(5.4, 4.8)
+    axes = figure.add_subplot(projection=None if planar else "3d")
+    moving = [(m, stage.velocities(point, m.velocities)) for m in motions]
+    if planar:
+        from singsym.output.plot_planar import draw_planar
+
+        draw_planar(axes, stage.scene(point), moving)
+    else:
+        from singsym.output.plot_spatial import draw_spatial
+
+        draw_spatial(axes, stage.scene(point), moving)
+    figure.suptitle(title, fontsize=12, color=INK)
+    for row, motion in enumerate(motions):
+        figure.text(0.02, 0.02 + 0.04 * row, f"→ {motion.words}", fontsize=8.5, color=MOTION[motion.kind])
+    return Picture(figure, title, description)
+
+
+def _words(mechanism: Mechanism) -> str:
+    inputs = ", ".join(mechanism.inputs)
+    return f"{len(mechanism.links)} links and {len(mechanism.joints)} joints, inputs {inputs}"
+
+
+def _class_words(stage: Stage, title: str, motions: Sequence[Motion]) -> str:
+    moving = "; ".join(f"{m.words} ({m.rates})" for m in motions)
+    return f"{title} of {stage.mechanism.title or stage.mechanism.name}. Arrows: {moving}"
+
+
+def class_pictures(classification: Classification) -> Iterator[tuple[ClassResult, Picture]]:
+    """One picture for each class that has a configuration."""
+    for result in classification.classes:
+        if result.witnesses:
+            yield result, plot_class(classification, result)

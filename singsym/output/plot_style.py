@@ -1,0 +1,68 @@
+"""Colours and sizes that all figures share, and a figure with its title and description.
+
+Source: singsym's own.
+"""
+
+from __future__ import annotations
+
+import io
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+INK = "#1f2329"
+PALE = "#8b949f"
+LINK = "#dbe4ee"
+PLATFORM = "#f6e3bd"
+INPUT = "#c8500a"
+OUTPUT = "#0b7a66"
+MOTION = {"RI": "#1a56c4", "RO": "#b3123f", "RPM": "#7a2bb5"}
+SERIES = ("#1a56c4", "#b3123f", "#0b7a66", "#a06a00", "#7a2bb5", "#3f6f87", "#8a3d12", "#566b13")
+DASHES = ("-", "--", "-.", ":", (0, (8, 2, 1, 2, 1, 2)), (0, (3, 1)), (0, (1, 3)), (0, (10, 3)))
+PAPER = "#ffffff"
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """A matplotlib figure, its title, and what it shows in words for those who cannot see it.
+
+    A notebook shows it as vector graphics.
+    """
+
+    figure: Any = field(repr=False)
+    title: str
+    description: str
+
+    def svg(self) -> str:
+        """The figure as an SVG element, the same for the same content."""
+        import matplotlib
+
+        stream = io.StringIO()
+        with matplotlib.rc_context({"svg.fonttype": "path", "svg.hashsalt": "singsym"}):
+            self.figure.savefig(
+                stream, format="svg", transparent=True, metadata={"Date": None, "Creator": None}
+            )
+        text = stream.getvalue()
+        return text[text.index("<svg") :]
+
+    def save(self, path: str | Path) -> Path:
+        """Write to a file; its ending says the format (svg, pdf, png and what else matplotlib writes)."""
+        target = Path(path)
+        known = self.figure.canvas.get_supported_filetypes()
+        if target.suffix[1:].lower() not in known:
+            raise ValueError(f"{target.name}: expected a file name that ends in {', '.join(sorted(known))}")
+        self.figure.savefig(target, dpi=160)
+        return target
+
+    def _repr_svg_(self) -> str:
+        return self.svg()
+
+
+def canvas(width: float, height: float) -> Any:
+    """An empty figure of this size in inches, apart from pyplot's global state."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(width, height), layout="constrained")
+    FigureCanvasAgg(figure)
+    return figure
