@@ -19,7 +19,7 @@ from singsym.varieties.real.critical import component_samples, sample_points
 from singsym.varieties.real.points import RealPoint, has_real_root
 from singsym.varieties.real.squares import sum_of_squares
 from singsym.varieties.real.witness import RealSystem, Witness, find_witness
-from singsym.varieties.real.zerodim import pinned, real_points
+from singsym.varieties.real.zerodim import certainties, pinned, real_points
 
 _SEARCH_SECONDS = 15.0
 
@@ -38,10 +38,13 @@ def is_empty_over_reals(
     <Answer.NO: 'no'>
     """
     try:
-        with current(budget).part() as limited:
-            return _decided(system, limited, seed, tries)
+        with current(budget).part() as limited, certainties() as seen:
+            verdict = _decided(system, limited, seed, tries)
     except Undecided as reason:
         return Verdict.undecided(str(reason))
+    if verdict.is_yes and "modular" in seen:
+        return replace(verdict, certainty="modular", engine="msolve")
+    return verdict
 
 
 def _decided(system: RealSystem, budget: Budget, seed: int, tries: int) -> Verdict:

@@ -6,7 +6,9 @@ Source: Faugere et al. (1993) and Rouillier (1999), see quotient.py and parametr
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import replace
 from math import lcm
 from typing import Any
@@ -21,6 +23,7 @@ from singsym.elimination.engines.msolve import RawParametrization
 from singsym.elimination.engines.registry import msolve
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.memo import is_known, remember
+from singsym.elimination.verdict import Certainty
 from singsym.polynomials import AlgebraicConstant, Polynomial, Ring
 from singsym.varieties.real.macaulay import quotient_algebra_over
 from singsym.varieties.real.parametrization import Parametrization, divides, parametrize
@@ -34,10 +37,12 @@ from singsym.varieties.real.quotient import (
     reduced,
 )
 
-__all__ = ["NotZeroDimensional", "pinned", "real_points", "solve"]
+__all__ = ["NotZeroDimensional", "certainties", "pinned", "real_points", "solve"]
 
 # (polynomials, terms of each, bits of a coefficient) up to which FLINT computes a basis in this process
 _CAPS = (150, 500, 1500)
+
+_seen: ContextVar[list[Certainty] | None] = ContextVar("certainties", default=None)
 
 
 def real_points(
@@ -74,7 +79,29 @@ def solve(equations: Sequence[Polynomial], budget: Budget | None = None) -> Para
     system = canonical(ring, (*map(ring.convert, equations), *ring.relations))
     if not system:
         raise NotZeroDimensional("only zero equations: the whole space")
-    return remember("points", (ring, frozenset(system)), lambda: _solve(ring, system, budget))
+    found = remember("points", (ring, frozenset(system)), lambda: _solve(ring, system, budget))
+    seen = _seen.get()
+    if seen is not None:
+        seen.append(found.certainty)
+    return found
+
+
+@contextmanager
+def certainties() -> Iterator[list[Certainty]]:
+    """A list of how each system solved inside is known to be solved completely.
+
+    >>> from singsym.polynomials import Ring
+    >>> with certainties() as seen:
+    ...     _ = real_points(Ring(("x",)).gens)
+    >>> seen
+    ['proven']
+    """
+    seen: list[Certainty] = []
+    token = _seen.set(seen)
+    try:
+        yield seen
+    finally:
+        _seen.reset(token)
 
 
 def _solve(ring: Ring, system: tuple[Polynomial, ...], budget: Budget) -> Parametrization:
