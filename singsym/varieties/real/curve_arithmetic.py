@@ -18,6 +18,8 @@ from singsym.polynomials import Polynomial, Ring
 Array = NDArray[np.float64]
 
 EPSILON = 2.0**-52
+#: of the platform's long doubles: 2^-63 where the processor has them, else that of doubles
+_LONG_EPSILON = float(np.finfo(np.longdouble).eps)
 TINY = 1e-290
 
 
@@ -76,9 +78,12 @@ class PolynomialMap:
         monomials = _closed_under_division({m for table in tables for m in table}, variables)
         index = {m: k for k, m in enumerate(monomials)}
         self.coefficients: Array = np.zeros((len(monomials), len(tables)))
+        self._precise = np.zeros(self.coefficients.shape, dtype=np.longdouble)
         for column, table in enumerate(tables):
             for monomial, c in table.items():
-                self.coefficients[index[monomial], column] = _to_float(c)
+                self.coefficients[index[monomial], column] = high = _to_float(c)
+                low = float(c - Fraction(high))
+                self._precise[index[monomial], column] = np.longdouble(high) + np.longdouble(low)
         self._levels = []
         start = 1
         while start < len(monomials):
@@ -100,6 +105,17 @@ class PolynomialMap:
         for start, stop, parents, factors in self._levels:
             table[:, start:stop] = table[:, parents] * points[:, factors]
         return table @ self.coefficients
+
+    def precise(self, points: Array) -> Balls:
+        """Enclosures of the values at points taken as exact, in long doubles where the platform has them."""
+        table = np.ones((len(points), len(self.coefficients)), dtype=np.longdouble)
+        for start, stop, parents, factors in self._levels:
+            table[:, start:stop] = table[:, parents] * points[:, factors]
+        mid = np.asarray(table @ self._precise, dtype=np.float64)
+        size = np.asarray(np.abs(table) @ np.abs(self._precise), dtype=np.float64)
+        terms = len(self.coefficients) + 4 * len(self._levels) + 8
+        rad = (terms * _LONG_EPSILON * size + EPSILON * np.abs(mid)) * (1 + 16 * EPSILON) + TINY
+        return Balls(mid, rad)
 
     def balls(self, points: Balls) -> Balls:
         """Enclosures of the values over boxes (B, variables): (B, polynomials)."""
@@ -146,13 +162,12 @@ class System:
         return PolynomialMap(self._gradients, len(self.ring.names))
 
     @cached_property
-    def second_map(self) -> PolynomialMap:
-        second = [g.derivative(name) for g in self._gradients for name in self.ring.names]
-        return PolynomialMap(second, len(self.ring.names))
+    def _taylor(self) -> _Taylor:
+        return _Taylor(self.scaled, len(self.ring.names))
 
     def values(self, points: Array) -> Array:
         """(B, equations)."""
-        return self.map.values(points)
+        return self.map.precise(points).mid
 
     def jacobian(self, points: Array) -> Array:
         """(B, equations, variables)."""
@@ -167,7 +182,76 @@ class System:
     def hessian_balls(self, points: Balls) -> Balls:
         """(B, equations, variables * variables), over boxes."""
         r, n = len(self.scaled), len(self.ring.names)
-        return self.second_map.balls(points).reshape(len(points.mid), r, n * n)
+        return self._taylor.hessian(points).reshape(len(points.mid), r, n * n)
+
+
+class _Taylor:
+    """The second derivatives over boxes by Taylor expansion at their centres, free of cancellation."""
+
+    def __init__(self, equations: Sequence[Polynomial], variables: int) -> None:
+        coefficients: list[Polynomial] = []
+        entries: list[tuple[int, int, float]] = []
+        terms: list[tuple[int, int, float, tuple[int, ...]]] = []
+        for k, equation in enumerate(equations):
+            for order, coefficient in _expansion(equation).items():
+                for i, j in ((i, j) for i in range(variables) for j in range(variables)):
+                    rest = list(order)
+                    rest[i] -= 1
+                    rest[j] -= 1
+                    if min(rest) < 0:
+                        continue
+                    target = (k * variables + i) * variables + j
+                    factor = float(order[i] * (order[j] - (i == j)))
+                    if sum(rest):
+                        terms.append((target, len(coefficients), factor, tuple(rest)))
+                    else:
+                        entries.append((target, len(coefficients), factor))
+                coefficients.append(coefficient)
+        self._size = len(equations) * variables**2
+        self._map = PolynomialMap(coefficients, variables)
+        self._constant = np.zeros((len(coefficients), self._size))
+        for target, source, factor in entries:
+            self._constant[source, target] = factor
+        self._sources = np.array([t[1] for t in terms], dtype=int)
+        self._factors = np.array([t[2] for t in terms])
+        self._powers = np.array([t[3] for t in terms]).reshape(len(terms), variables)
+        self._targets = np.zeros((len(terms), self._size))
+        self._targets[np.arange(len(terms)), [t[0] for t in terms]] = 1
+
+    def hessian(self, points: Balls) -> Balls:
+        """All second derivatives over boxes, (B, equations * variables * variables)."""
+        center = self._map.precise(points.mid)
+        value = center.matmul(Balls.exact(self._constant))
+        if not len(self._sources):
+            return value
+        size = center.magnitude()[:, self._sources] * self._factors
+        for i in range(self._powers.shape[1]):
+            highest = int(self._powers[:, i].max())
+            powers = np.cumprod(np.repeat(points.rad[:, i : i + 1], highest, axis=1), axis=1)
+            powers = np.concatenate([np.ones((len(powers), 1)), powers], axis=1)
+            size = size * powers[:, self._powers[:, i]]
+        spread = size @ self._targets * (1 + (len(self._sources) + 64) * 4 * EPSILON)
+        return Balls(value.mid, value.rad + spread + TINY)
+
+
+def _expansion(equation: Polynomial) -> dict[tuple[int, ...], Polynomial]:
+    """The nonzero Taylor coefficients of order 2 and more, as polynomials in the centre."""
+    ring = equation.ring
+    zero = (0,) * len(ring.names)
+    found: dict[tuple[int, ...], Polynomial] = {}
+    layer = {zero: equation}
+    while layer:
+        following: dict[tuple[int, ...], Polynomial] = {}
+        for order, coefficient in layer.items():
+            for i, name in enumerate(ring.names):
+                raised = (*order[:i], order[i] + 1, *order[i + 1 :])
+                if raised not in following:
+                    derivative = coefficient.derivative(name) / raised[i]
+                    if derivative:
+                        following[raised] = derivative
+        found.update({o: c for o, c in following.items() if sum(o) > 1})
+        layer = following
+    return found
 
 
 def _to_float(number: Fraction) -> float:

@@ -74,9 +74,7 @@ def prove_tubes(system: System, start: Array, end: Array) -> Tubes:
     exact_frame, exact_step = Balls.exact(frame), Balls.exact(step[:, :, None])
     half = 0.5 + MARGIN
     at_jacobian = precondition.matmul(system.jacobian_balls(Balls.exact(center)))
-    at_center = precondition.matmul(
-        system.map.balls(Balls.exact(center)).reshape(len(start), -1, 1)
-    ).magnitude()
+    at_center = precondition.matmul(system.map.precise(center).reshape(len(start), -1, 1)).magnitude()
     spread = np.abs(step) * half
     radius = np.zeros(len(start))
     for _ in range(2):
@@ -94,7 +92,7 @@ def prove_tubes(system: System, start: Array, end: Array) -> Tubes:
     proven &= (frame_norm < _ORTHOGONAL) & np.isfinite(move) & (length > 0)
     slope = 1.01 * np.sqrt(n) * along.max(axis=(1, 2), initial=0.0) / safe
     size = 1 + np.maximum(np.abs(start), np.abs(end)).max(axis=1)
-    error = np.maximum(*(_end_error(system, precondition, p, size, safe) for p in (start, end)))
+    error = np.maximum(*(_end_error(system, precondition, slopes, p, size, safe) for p in (start, end)))
     return Tubes(start, end, center, step, frame, radius, error, slope, proven)
 
 
@@ -156,9 +154,9 @@ def _slopes(
 ) -> Balls:
     """Y J over boxes in mean value form: Y J(center) + Y H(box) (s step + frame y), H the Hessians."""
     count, n = step.shape
-    second = precondition.matmul(system.hessian_balls(box)).reshape(count, n - 1, n, n)
+    second = precondition.matmul(system.hessian_balls(box)).reshape(count, (n - 1) * n, n)
     basis = np.concatenate([step[:, :, None] * (0.5 + MARGIN), frame * radius[:, None, None]], axis=2)
-    change = second.matmul(Balls.exact(basis[:, None])).magnitude().sum(axis=3)
+    change = second.matmul(Balls.exact(basis)).magnitude().sum(axis=2).reshape(count, n - 1, n)
     return Balls(at_center.mid, (at_center.rad + change) * (1 + 4 * n * EPSILON) + TINY)
 
 
@@ -172,11 +170,15 @@ def inverses(matrices: Array) -> Array:
     return np.asarray(np.linalg.pinv(matrices), dtype=np.float64)
 
 
-def _end_error(system: System, precondition: Balls, points: Array, size: Array, safe: Array) -> Array:
-    """How far the arc can be from a point at an end: |Y f| / (1 - contraction), as a 2-norm."""
+def _end_error(
+    system: System, precondition: Balls, slopes: Balls, points: Array, size: Array, safe: Array
+) -> Array:
+    """How far the arc can be from a point at an end: |Y f| / (1 - contraction), as a 2-norm.
+
+    The end of the segment and the point differ by rounding, which Y f at the point takes up by its slopes.
+    """
     n = points.shape[1]
     rounding = 2 * EPSILON * size
-    ball = Balls(points, np.broadcast_to(rounding[:, None], points.shape))
-    residual = precondition.matmul(system.map.balls(ball).reshape(len(points), -1, 1)).magnitude()
-    distance = residual.max(axis=(1, 2), initial=0.0) / safe
-    return np.asarray(np.sqrt(n) * (1.01 * distance + 2 * rounding))
+    residual = precondition.matmul(system.map.precise(points).reshape(len(points), -1, 1)).magnitude()
+    moved = residual[:, :, 0] + slopes.magnitude().sum(axis=2) * rounding[:, None] * 1.01
+    return np.asarray(np.sqrt(n) * (1.01 * moved.max(axis=1, initial=0.0) / safe + 2 * rounding))
