@@ -12,9 +12,9 @@ from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from singsym.classes.explore import Branch, Exploration, search
+from singsym.classes.explore import Branch, Exploration, Loci, search
 from singsym.classes.realise import Counted, CurveTask, Names, RealTask, count, realise
-from singsym.classes.result import Classification, ClassResult, Equations, Locus, Piece, SpacePiece
+from singsym.classes.result import Classification, ClassResult, Locus, Piece, SpacePiece
 from singsym.classes.steps import excluded_in, found_in
 from singsym.classes.strata import RankProblem
 from singsym.classes.types import SingularityClass, SingularityType, feasible_classes
@@ -127,9 +127,8 @@ class _Work:
             self.equation.space.equations,
             seconds=self.limits.seconds,
             memory_mb=self.limits.memory_mb,
-            first_loci=self._first_loci(),
         )
-        explored = search(root, self.runner)
+        explored = search(root, self.runner, self._singular_loci())
         tasks = [
             RealTask(found, self.feasible, self.names, self.limits.seconds, self.limits.memory_mb)
             for found in explored.found
@@ -148,14 +147,15 @@ class _Work:
             time.monotonic() - started,
         )
 
-    def _first_loci(self) -> dict[str, tuple[Equations, ...]]:
-        """The zero sets of (4) and (5) in their readable factors, where they are products."""
-        found = {}
-        for name, label in (("L_I", "4"), ("L_O", "5")):
+    def _singular_loci(self) -> tuple[Loci, Loci] | None:
+        """The zero sets of (4) and (5) in readable factors, where they are known and not everything."""
+        found = []
+        for label in ("4", "5"):
             condition = self.conditions[label]
-            if condition.alternatives is not None and not condition.everywhere:
-                found[name] = condition.polynomials
-        return found
+            if condition.alternatives is None or condition.everywhere:
+                return None
+            found.append(condition.polynomials)
+        return (found[0], found[1])
 
     # -- loci ----------------------------------------------------------------------------------------
 

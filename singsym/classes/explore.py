@@ -6,10 +6,11 @@ det L_I or of det L_O (the Proposition of section 2.3), so the search starts wit
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 
 from singsym.classes.strata import Ground, RankProblem, Stratum, stratum
+from singsym.classes.types import Defects
 from singsym.classes.work import Runner
 from singsym.elimination.budget import Budget, Undecided
 from singsym.elimination.ideal import Ideal
@@ -29,7 +30,6 @@ class Branch:
     equations: the loop equations; path: the factors and minors that vanish there besides.
     feasible: the exclusions and inequalities of the feasible set Omega (its equations are not used).
     covered: matrices whose loci of lower rank in this branch are searched by another one.
-    first_loci: readable equations of the loci of L_I and L_O of full rank, for the whole space only.
     seconds, memory_mb: the budget of the decomposition.
     """
 
@@ -38,7 +38,6 @@ class Branch:
     equations: Equations
     path: Equations = ()
     covered: tuple[str, ...] = ()
-    first_loci: Mapping[str, tuple[Equations, ...]] = field(default_factory=dict)
     seconds: float | None = None
     memory_mb: int | None = None
 
@@ -125,31 +124,68 @@ def numerical_points(ideal: Ideal, count: int = 3) -> tuple[tuple[float, ...], .
     return tuple(found)
 
 
-def search(root: Branch, runner: Runner) -> Exploration:
+Loci = Sequence[Equations]
+"""A closed set as a union: of each tuple, all polynomials vanish."""
+
+
+def search(root: Branch, runner: Runner, singular: tuple[Loci, Loci] | None = None) -> Exploration:
     """All strata of a branch, level by level; every level's branches are independent tasks.
 
+    singular: the loci of (4) and (5) where they are known: then the strata with k_I = 0 or k_O = 0 are
+        written down at once (conditions (vii), (viii)), and only the intersections are searched.
     The result does not depend on the runner's executor: branches keep their order.
     """
     found: dict[Equations, Found] = {}
-    unexplored: list[tuple[Branch, str]] = []
     frontier: Sequence[Branch] = (root,)
-    visited: set[frozenset[Polynomial]] = set()
+    if singular is not None:
+        found = {part.stratum.equations: part for part in _simple_strata(root, *singular)}
+        frontier = _intersections(root, *singular)
+    unexplored: list[tuple[Branch, str]] = []
+    visited = {frozenset(branch.path) for branch in frontier}
     level = 0
     while frontier:
+        level += 1
         results = runner.map(explore, frontier, f"strata, level {level}")
         following: list[Branch] = []
         for branch, explored in zip(frontier, results, strict=True):
             if explored.undecided:
                 unexplored.append((branch, explored.undecided))
             for part in explored.strata:
-                basis = part.component.generators
-                if _covered(branch, part) or basis in found:
+                if _covered(branch, part) or part.equations in found:
                     continue
-                found[basis] = Found(branch.path, part)
+                found[part.equations] = Found(branch.path, part)
                 following.extend(_children(branch, part, visited))
         frontier = following
-        level += 1
     return Exploration(tuple(found.values()), tuple(unexplored))
+
+
+def _simple_strata(root: Branch, inputs: Loci, outputs: Loci) -> Iterator[Found]:
+    """The regular configurations, and the zeros of (4) without (5) and of (5) without (4).
+
+    With k_O = 0 there is neither IIM nor RPM, and the class is (RO, II); dually.
+    """
+    yield Found(
+        (), Stratum(root.equations, Defects(0, 0, 0, 0), {"L_I": tuple(inputs), "L_O": tuple(outputs)})
+    )
+    cases = ((inputs, outputs, "L_O", Defects(0, 0, 1, 0)), (outputs, inputs, "L_I", Defects(0, 0, 0, 1)))
+    for own, other, name, defects in cases:
+        for path in own:
+            if path not in other:
+                yield Found(path, Stratum((*root.equations, *path), defects, {name: tuple(other)}))
+
+
+def _intersections(root: Branch, inputs: Loci, outputs: Loci) -> list[Branch]:
+    """The parts of the zeros of (4) and (5) that together hold all configurations with k_I and k_O > 0."""
+    common = [path for path in inputs if path in outputs]
+    paths = [frozenset(path) for path in common]
+    ordered = list(common)
+    for one in inputs:
+        for two in outputs:
+            path = tuple(dict.fromkeys((*one, *two)))
+            if not any(known <= frozenset(path) for known in paths):
+                paths.append(frozenset(path))
+                ordered.append(path)
+    return [replace(root, path=path) for path in ordered]
 
 
 def _covered(branch: Branch, part: Stratum) -> bool:
@@ -166,9 +202,7 @@ def _children(branch: Branch, part: Stratum, visited: set[frozenset[Polynomial]]
             continue
         regular = defects.k_I == 0 and defects.k_O == 0
         covered = ("L_I",) if regular and name == "L_O" else ()
-        known = branch.first_loci.get(name) if regular else None
-        alternatives = known or [e for locus in part.loci[name] for e in split_product(locus)]
-        for equations in alternatives:
+        for equations in (e for locus in part.loci[name] for e in split_product(locus)):
             path = tuple(dict.fromkeys((*branch.path, *equations)))
             if frozenset(path) in visited:
                 continue

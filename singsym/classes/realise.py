@@ -6,7 +6,7 @@ Hauenstein, Sottile, ACM Trans. Math. Softw. 38 (2012) 28.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from flint import arb
@@ -16,16 +16,18 @@ from singsym.classes.result import Configuration, Equations, Piece
 from singsym.elimination.budget import Budget, Undecided
 from singsym.elimination.verdict import Verdict
 from singsym.kinematics.placement import Coordinates, JointValue
-from singsym.varieties.decomposition import Component
 from singsym.varieties.real.box import BoxPoint
 from singsym.varieties.real.curve import real_curve
-from singsym.varieties.real.dimension import component_dimension
+from singsym.varieties.real.dimension import component_dimension, independent, real_dimension
 from singsym.varieties.real.intervals import at_precision, evaluate
 from singsym.varieties.real.points import RealPoint
-from singsym.varieties.real.witness import RealSystem
-from singsym.varieties.real.zerodim import real_points
+from singsym.varieties.real.witness import RealSystem, Witness, find_witness
+from singsym.varieties.real.zerodim import NotZeroDimensional, real_points
 
 DIGITS = 15
+SEARCHES = 12
+"""Random starts in the search for a point of a set given by independent equations."""
+
 _BITS = 80
 
 
@@ -73,28 +75,43 @@ class Counted:
 def realise(task: RealTask) -> Piece:
     """The real side of one stratum: the task that workers run."""
     stratum = task.found.stratum
-    basis = stratum.component.generators
     piece = Piece(
         task.found.path,
-        basis,
+        stratum.equations,
         stratum.degenerate,
         stratum.defects,
-        stratum.dimension,
         Verdict.undecided("not examined"),
     )
     exclusions = (*task.feasible.exclusions, *stratum.degenerate)
-    system = replace(task.feasible, equations=basis, exclusions=exclusions)
+    system = replace(task.feasible, equations=stratum.equations, exclusions=exclusions)
     try:
         with Budget(task.seconds, task.memory_mb):
-            if stratum.dimension == 0:
-                return _finite(piece, system, task.names)
-            return _positive(piece, stratum.component, system, task.names)
+            if stratum.component is None:
+                return _given(piece, system, task.names)
+            if stratum.component.dimension == 0:
+                return _finite(piece, real_points(stratum.equations), system, task.names)
+            return _positive(piece, component_dimension(stratum.component, system), task.names)
     except Undecided as reason:
         return replace(piece, verdict=Verdict.undecided(str(reason)))
 
 
-def _finite(piece: Piece, system: RealSystem, names: Names) -> Piece:
-    points = [p for p in real_points(piece.basis) if system.admits(p)]
+def _given(piece: Piece, system: RealSystem, names: Names) -> Piece:
+    """A set given by equations: where their gradients are independent at a point, a manifold near it."""
+    dimension = len(system.ring.names) - len(system.closed_equations)
+    if dimension == 0:
+        try:
+            return _finite(piece, real_points(piece.basis), system, names)
+        except NotZeroDimensional:
+            return _positive(piece, real_dimension(system), names)
+    if dimension > 0:
+        witness = find_witness(system, dimension=dimension, tries=SEARCHES)
+        if witness is not None and independent(system.closed_equations, witness.point):
+            return _positive(piece, (dimension, witness), names)
+    return _positive(piece, real_dimension(system), names)
+
+
+def _finite(piece: Piece, solutions: Sequence[RealPoint], system: RealSystem, names: Names) -> Piece:
+    points = [p for p in solutions if system.admits(p)]
     if not points:
         verdict = Verdict.no(reason="none of finitely many complex solutions is real and feasible")
         return replace(piece, verdict=verdict, dimension=-1, points=0)
@@ -104,10 +121,10 @@ def _finite(piece: Piece, system: RealSystem, names: Names) -> Piece:
     )
 
 
-def _positive(piece: Piece, component: Component, system: RealSystem, names: Names) -> Piece:
-    dimension, witness = component_dimension(component, system)
+def _positive(piece: Piece, found: tuple[int, Witness | None], names: Names) -> Piece:
+    dimension, witness = found
     if witness is None:
-        verdict = Verdict.no(reason="the equations have complex solutions, but no real and feasible one")
+        verdict = Verdict.no(reason="the equations have no real and feasible solution")
         return replace(piece, verdict=verdict, dimension=-1)
     verdict = Verdict.yes("proven" if isinstance(witness.point, RealPoint) else "certified")
     return replace(

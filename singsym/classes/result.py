@@ -55,7 +55,6 @@ class Piece:
     basis: Equations
     exclusions: tuple[Equations, ...]
     defects: Defects
-    complex_dimension: int
     verdict: Verdict
     dimension: int | None = None
     points: int | None = None

@@ -55,20 +55,17 @@ class BlockRank:
 
 @dataclass(frozen=True)
 class Stratum:
-    """A component minus the loci where the ranks drop: there the types are constant.
+    """The zeros of `equations` minus the loci where the ranks drop: there the types are constant.
 
-    degenerate: of each tuple, not all polynomials vanish on the stratum.
-    loci: the same for each of the four matrices by name, those whose drop would change the types.
+    loci: for each of the four matrices, the loci to be taken out whose loss of rank would change the types;
+        of each tuple, not all polynomials vanish on the stratum.
+    component: the equations' zero set where it comes from a decomposition, else None.
     """
 
-    component: Component
+    equations: tuple[Polynomial, ...]
     defects: Defects
     loci: Mapping[str, tuple[tuple[Polynomial, ...], ...]]
-
-    @property
-    def dimension(self) -> int:
-        """The complex dimension."""
-        return self.component.dimension
+    component: Component | None = None
 
     @property
     def degenerate(self) -> tuple[tuple[Polynomial, ...], ...]:
@@ -238,7 +235,8 @@ def stratum(problem: RankProblem, ground: Ground) -> Stratum:
         ranks[name] = sum(known[block].rank for block in blocks)
         loci[name] = tuple(known[block].minors for block in blocks if known[block].minors)
     defects = problem.defects(ranks)
-    return Stratum(ground.component, defects, {name: loci[name] for name in relevant(defects)})
+    component = ground.component
+    return Stratum(component.generators, defects, {name: loci[name] for name in relevant(defects)}, component)
 
 
 def pivots(matrix: list[list[float]]) -> tuple[tuple[int, ...], tuple[int, ...]]:

@@ -5,10 +5,12 @@ Source: Bochnak, Coste, Roy, Real Algebraic Geometry (1998), 2.8 and 3.3.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from singsym.elimination.budget import Budget, Undecided, current
 from singsym.elimination.ideal import Ideal
+from singsym.polynomials import Polynomial
 from singsym.varieties.decomposition import Component, decompose
 from singsym.varieties.real.box import BoxPoint
 from singsym.varieties.real.critical import regular_generators
@@ -36,15 +38,36 @@ def local_dimension(point: RealPoint | BoxPoint | Witness, ideal: Ideal) -> int 
     1
     """
     place = point.point if isinstance(point, Witness) else point
-    dimension = ideal.dimension
-    codimension = len(ideal.ring.names) - dimension
-    slopes = jacobian(ideal.generators, ideal.ring.names)
+    codimension = len(ideal.ring.names) - ideal.dimension
+    return ideal.dimension if _has_rank(ideal.generators, place, codimension) else None
+
+
+def independent(equations: Sequence[Polynomial], point: RealPoint | BoxPoint) -> bool:
+    """Whether the equations' gradients are certified to be independent at a point of their zero set.
+
+    Near it the real zeros are then a manifold, of dimension the number of variables minus that of equations.
+
+    >>> from fractions import Fraction
+    >>> from singsym.polynomials import Ring
+    >>> from singsym.varieties.real.witness import frozen_points
+    >>> R = Ring(("x", "y"))
+    >>> x, y = R.gens
+    >>> [independent((f,), frozen_points(R, (f,), {"x": Fraction(0)})[0]) for f in (x**2 + y**2 - 1, y**2)]
+    [True, False]
+    """
+    return _has_rank(equations, point, len(equations))
+
+
+def _has_rank(equations: Sequence[Polynomial], point: RealPoint | BoxPoint, rank: int) -> bool:
+    if not equations:
+        return rank == 0
+    slopes = jacobian(equations, equations[0].ring.names)
     for bits in _RANK_BITS:
-        box = place.refine(bits).box
+        box = point.refine(bits).box
         with at_precision(bits + 64):
-            if rank_at_least([[evaluate(d, box) for d in row] for row in slopes], codimension):
-                return dimension
-    return None
+            if rank_at_least([[evaluate(d, box) for d in row] for row in slopes], rank):
+                return True
+    return False
 
 
 def real_dimension(
