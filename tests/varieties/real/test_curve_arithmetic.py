@@ -23,9 +23,7 @@ def holds(balls, index, exact):
 
 
 @settings(max_examples=60, deadline=None)
-@given(
-    polynomial, st.tuples(number, number, number), st.floats(0, 2), st.tuples(fraction, fraction, fraction)
-)
+@given(polynomial, centers, st.floats(0, 2), offsets)
 def test_values_over_boxes(p, center, radius, offset):
     box = Balls(np.array([center]), np.full((1, 3), radius))
     point = [Fraction(c) + Fraction(radius) * o for c, o in zip(center, offset, strict=True)]
@@ -35,9 +33,7 @@ def test_values_over_boxes(p, center, radius, offset):
 
 
 @settings(max_examples=60, deadline=None)
-@given(
-    polynomial, st.tuples(number, number, number), st.floats(0, 2), st.tuples(fraction, fraction, fraction)
-)
+@given(polynomial, centers, st.floats(0, 2), offsets)
 def test_derivatives_over_boxes(p, center, radius, offset):
     if p.is_zero:
         return
