@@ -27,7 +27,7 @@ def read(chosen: argparse.Namespace) -> Mechanism:
             if problems:
                 raise MechanismError(problems)
     except MechanismError as error:
-        raise UserError(_paragraph(error.problems)) from None
+        raise UserError(complaint(error.problems)) from None
     except (OSError, ImportError) as error:
         raise UserError(str(error)) from None
     return mechanism
@@ -50,7 +50,8 @@ def _setting(text: str) -> tuple[str, str | None]:
     return name.strip(), value.strip() or None
 
 
-def _paragraph(problems: tuple[Problem, ...]) -> str:
+def complaint(problems: tuple[Problem, ...]) -> str:
+    """Problems as one paragraph, cut where there are many."""
     shown = [str(p) for p in problems[:12]]
     if len(problems) > 12:
         shown.append(f"and {len(problems) - 12} more")
@@ -123,7 +124,7 @@ def placed(mechanism: Mechanism, formulation: str) -> VelocityEquation:
     try:
         return velocity_equation(mechanism, formulation)
     except MechanismError as error:
-        raise UserError(_paragraph(error.problems)) from None
+        raise UserError(complaint(error.problems)) from None
     except ValueError as error:
         raise UserError(str(error)) from None
 

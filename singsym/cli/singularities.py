@@ -6,9 +6,11 @@ Source: sections 2.3, 3.1 and 3.2 of Zlatanov, Fenton, Benhabib (1998).
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 
-from singsym.cli.mechanisms import placed, read
-from singsym.cli.screen import emit_data, emit_page
+from singsym.cli.mechanisms import complaint, placed, read
+from singsym.cli.screen import UserError, emit_data, emit_page
+from singsym.mechanism import MechanismError
 
 UNDECIDED = 3
 
@@ -86,3 +88,33 @@ def run_classify(chosen: argparse.Namespace) -> int:
 
         emit_page(classification_page(result))
     return UNDECIDED if result.undecided else 0
+
+
+def run_at(chosen: argparse.Namespace) -> int:
+    """`singsym at MECHANISM --config FILE`."""
+    from singsym.classes.at import at
+    from singsym.classes.given import Given
+
+    mechanism = read(chosen)
+    placed(mechanism, chosen.formulation)
+    try:
+        text = Path(chosen.config).read_text(encoding="utf-8-sig")
+        given = Given.from_toml(text, chosen.config)
+        found = at(
+            mechanism, given, formulation=chosen.formulation, tolerance=chosen.tolerance, file=chosen.config
+        )
+    except MechanismError as error:
+        raise UserError(complaint(error.problems)) from None
+    except OSError as error:
+        raise UserError(f"{chosen.config} cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise UserError(f"{chosen.config} is no text in UTF-8") from None
+    if chosen.format == "json":
+        from singsym.output.data import analysis_data
+
+        emit_data(analysis_data(mechanism.name, found))
+    else:
+        from singsym.output.text import analysis_page
+
+        emit_page(analysis_page(mechanism.name, found))
+    return 0 if found.exact or found.defects.is_feasible(found.equation.n) else UNDECIDED

@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from singsym.classes.at import Analysis
     from singsym.classes.types import Table
     from singsym.elimination.conditions import Condition, Conditions
     from singsym.kinematics.mobility import Mobility
@@ -127,4 +128,41 @@ def mobility_data(name: str, equation: VelocityEquation, found: Mobility) -> dic
         "samples": found.samples,
         "regular": found.regular,
         "problems": list(found.messages),
+    }
+
+
+def analysis_data(name: str, found: Analysis) -> dict[str, Any]:
+    """Everything about one configuration."""
+    located = found.located
+    return {
+        "mechanism": name,
+        "N": found.equation.N,
+        "n": found.equation.n,
+        "exact": found.exact,
+        "variables": dict(found.values),
+        "points": {k: list(v) for k, v in found.points.items()},
+        "joints": dict(found.joints),
+        "residual": None
+        if located is None
+        else {"before": located.before, "after": located.after, "moved": located.moved},
+        "threshold": found.threshold,
+        "length": found.length,
+        "ranks": found.ranks,
+        "matrices": {
+            key: {
+                "rank": m.rank,
+                "regular": m.full,
+                "singular_values": list(m.singular_values),
+                "distance": m.distance,
+                "gap": None if m.gap == float("inf") else m.gap,
+            }
+            for key, m in found.matrices.items()
+        },
+        **found.defects._asdict(),
+        "types": list(found.types.names),
+        "class": found.singularity_class.number if found.singularity_class else None,
+        "motions": [
+            {"type": m.type.name, "restriction": m.restriction, "rates": dict(m.rates)} for m in found.motions
+        ],
+        "remarks": list(found.remarks),
     }

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 from singsym.output.page import Block, Grid, Page
 
 if TYPE_CHECKING:
+    from singsym.classes.at import Analysis
+    from singsym.classes.motions import Motion
     from singsym.classes.result import Classification, ClassResult, Configuration, Locus, SpacePiece
     from singsym.classes.types import Table
     from singsym.elimination.conditions import Condition, Conditions
@@ -272,6 +274,57 @@ def configuration_text(found: Configuration, digits: int = 7) -> str:
     named = shorter(found.points.items()) or shorter(found.coordinates.items())
     joints = shorter(found.joints.items())
     return f"{named}; {joints}" if joints else named
+
+
+# -- one configuration -------------------------------------------------------------------------------
+
+
+def analysis_page(name: str, found: Analysis) -> Page:
+    """Ranks, defects, types, class and null motions of one configuration."""
+    N, n = found.equation.N, found.equation.n
+    head = f"{name}: N = {N}, n = {n}"
+    places = [f"{p} = ({', '.join(f'{x:.7g}' for x in xs)})" for p, xs in found.points.items()]
+    joints = [f"{j} = {v:.7g}" for j, v in found.joints.items()]
+    values = [f"{v} = {x:.7g}" for v, x in found.values.items()]
+    where = "\n".join(", ".join(line) for line in (places or values, joints) if line)
+    ranks = tuple(
+        (name, str(m.rank), str(m.full), f"{m.distance:.2e}", "" if m.gap == float("inf") else f"{m.gap:.1e}")
+        for name, m in found.matrices.items()
+    )
+    headers = ("matrix", "rank", "regular", "distance", "gap")
+    delta, p, k_I, k_O = found.defects
+    number = found.singularity_class.number if found.singularity_class else 0
+    types = f"class {number} ({found.types})" if number else str(found.types)
+    result = f"delta = {delta}, p = {p}, k_I = {k_I}, k_O = {k_O}: {types}"
+    blocks: list[Block] = [head, where, _how(found), Grid(headers, ranks), result]
+    if found.motions:
+        blocks.append("\n".join(motion_text(m) for m in found.motions))
+    if found.remarks:
+        blocks.append("\n".join(f"Note: {remark}." for remark in found.remarks))
+    return tuple(blocks)
+
+
+def _how(found: Analysis) -> str:
+    distance = "distance: smallest singular value over largest"
+    if found.located is None:
+        return f"The configuration is exact, and so are the ranks; {distance}."
+    near = found.located
+    return (
+        f"Brought onto the loops: residual {near.before:.2e} before, {near.after:.2e} after, "
+        f"moved by {near.moved:.2e}.\n"
+        f"Ranks are numerical: lengths over {found.length:.4g}, joint columns of norm 1; "
+        f"singular values below {found.threshold:.1e} of the largest count as zero.\n"
+        f"{distance}; gap: last counted singular value over the next."
+    )
+
+
+def motion_text(motion: Motion) -> str:
+    """A null motion, or a restriction, on one line."""
+    if motion.restriction:
+        terms = " + ".join(f"{rate:.5g} {label}" for label, rate in motion.rates.items())
+        return f"{motion.type.name}: only velocities with {terms} = 0 are possible".replace("+ -", "- ")
+    rates = ", ".join(f"{label} {rate:.5g}" for label, rate in motion.rates.items())
+    return f"{motion.type.name}: {rates}"
 
 
 # -- engines -----------------------------------------------------------------------------------------
