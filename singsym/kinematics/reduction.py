@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import combinations
+from itertools import combinations, permutations
 from typing import TYPE_CHECKING
 
 from flint import fmpq, fmpz
@@ -116,7 +116,9 @@ class _Elimination:
         self.record: list[Elimination] = []
 
     def run(self) -> None:
-        """Unit pivots while there are any, then one block, and again."""
+        """Sparser rows, then unit pivots while there are any, then one block, and again."""
+        while self._sparsify():
+            pass
         while self._pivot() or self._block() or (self.thorough and self._pair()):
             pass
 
@@ -125,6 +127,23 @@ class _Elimination:
 
     def _eligible(self) -> list[int]:
         return [j for j, origin in enumerate(self.columns) if origin in self.candidates]
+
+    def _sparsify(self) -> bool:
+        """Add rows to others, or take them away, where a spherical joint goes: loops of one leg each."""
+        joints = [self._joint(c) for c in self.columns]
+        spherical = {j: joint for j, joint in enumerate(joints) if joints.count(joint) >= 3}
+        done = False
+        for k, i in permutations(range(len(self.entries)), 2):
+            old = self.entries[k]
+            if not any(old[j] and self.entries[i][j] for j in spherical):
+                continue
+            for sign in (1, -1):
+                new = [a - b * sign if b else a for a, b in zip(old, self.entries[i], strict=True)]
+                met = [{joint for j, joint in spherical.items() if row[j]} for row in (new, old)]
+                if len(met[0]) < len(met[1]) and sum(map(bool, new)) < sum(map(bool, old)):
+                    self.entries[k] = old = new
+                    done = True
+        return done
 
     # -- single pivots -------------------------------------------------------------------------------
 
