@@ -43,7 +43,7 @@ def test_no_tube_through_a_node_and_an_honest_error_off_the_curve():
     assert not far.proven.any() or far.error[0] > 0.5
     cross = System(x.ring, (x * y,))
     assert not prove_tubes(cross, np.array([[-0.1, 0.0]]), np.array([[0.1, 0.0]])).proven.any()
-    near = System(x.ring, (x * y - y**2 - y * 10**-12,))
+    near = System(x.ring, (x * y - y**2 - y / 10**12,))
     assert not prove_tubes(near, np.array([[-0.1, 0.0]]), np.array([[0.1, 0.0]])).proven.any()
 
 
