@@ -1,0 +1,137 @@
+"""The graph of strata: which class lies in the closure of which.
+
+Source: the sets {4}-{6} of section 3.2 of Zlatanov, Fenton, Benhabib (1998) and their intersections;
+closures are Zariski closures, decided by radical membership.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import networkx
+
+from singsym.classes.result import Classification, Piece
+from singsym.elimination.budget import Budget, Undecided
+from singsym.elimination.ideal import Ideal
+from singsym.output.plot_style import INK, LINK, PALE, PLATFORM, Picture, canvas
+
+MANY = 16
+"""With more pieces than this the nodes are whole classes."""
+
+_Key = tuple[int, tuple[str, ...]]
+
+
+def strata_graph(classification: Classification, seconds: float = 10.0) -> networkx.DiGraph:
+    """Strata as nodes, an edge from each to those in whose closure it lies, transitively reduced.
+
+    Node attributes: `number` of the class (0: regular), `label`, `dimension`, `points`.  Edge attribute
+    `whole`: False where only a part lies in the closure.  Comparisons that take more than `seconds`
+    together leave their edges out; the graph's attribute `undecided` counts them.
+
+    >>> from singsym.classes.classify import classify
+    >>> from singsym.mechanism import load
+    >>> graph = strata_graph(classify(load("slider-crank"), cache=False))
+    >>> sorted(graph.nodes(data="number"))
+    [((0, ()), 0), ((1, ('By',)), 1)]
+    """
+    groups = _groups(classification)
+    graph = networkx.DiGraph(undecided=0)
+    regular: _Key = (0, ())
+    graph.add_node(regular, number=0, label="regular", dimension=classification.equation.n, points=None)
+    for key, (label, pieces) in groups.items():
+        dimension = max((p.dimension for p in pieces if p.dimension is not None), default=0)
+        points = sum(p.points or 0 for p in pieces) if dimension == 0 else None
+        graph.add_node(key, number=key[0], label=label, dimension=dimension, points=points)
+        graph.add_edge(key, regular, whole=True)
+    budget = Budget(seconds)
+    for small, (_, inner) in groups.items():
+        for large, (_, outer) in groups.items():
+            if graph.nodes[small]["dimension"] < graph.nodes[large]["dimension"]:
+                try:
+                    lying = [any(_inside(p, q, budget) for q in outer) for p in inner]
+                except Undecided:
+                    graph.graph["undecided"] += 1
+                    continue
+                if any(lying):
+                    graph.add_edge(small, large, whole=all(lying))
+    reduced = networkx.transitive_reduction(graph)
+    for node, data in graph.nodes(data=True):
+        reduced.nodes[node].update(data)
+    for a, b in reduced.edges:
+        reduced.edges[a, b].update(graph.edges[a, b])
+    reduced.graph.update(graph.graph)
+    return reduced
+
+
+def _groups(classification: Classification) -> dict[_Key, tuple[str, list[Piece]]]:
+    """Pieces by class and by the factors that vanish on them; by class alone where there are many."""
+    words = {locus.factor: locus.words for locus in classification.loci if locus.words}
+    by_path: dict[_Key, tuple[str, list[Piece]]] = {}
+    by_class: dict[_Key, tuple[str, list[Piece]]] = {}
+    for result in classification.classes:
+        number, name = result.singularity_class.number, result.singularity_class.name
+        for piece in result.pieces:
+            lines = [words.get(p, _short(str(p))) for p in piece.path]
+            label = "\n".join([f"{number} ({name})", *lines])
+            by_path.setdefault((number, tuple(map(str, piece.path))), (label, []))[1].append(piece)
+            by_class.setdefault((number, ()), (f"{number} ({name})", []))[1].append(piece)
+    return by_path if len(by_path) <= MANY else by_class
+
+
+def _short(text: str) -> str:
+    return f"{text} = 0" if len(text) <= 24 else f"{text[:20]}… = 0"
+
+
+def _inside(small: Piece, large: Piece, budget: Budget) -> bool:
+    """Whether the zeros of one ideal are among those of another."""
+    inner = Ideal(small.basis[0].ring, small.basis)
+    return all(inner.radical_contains(g, budget) for g in large.basis)
+
+
+def plot_strata(classification: Classification, graph: networkx.DiGraph | None = None) -> Picture:
+    """The graph of strata, one row for each dimension, edges up into the closures."""
+    graph = strata_graph(classification) if graph is None else graph
+    rows: dict[int, list[Any]] = {}
+    for node, dimension in graph.nodes(data="dimension"):
+        rows.setdefault(dimension, []).append(node)
+    widest = max(len(row) for row in rows.values())
+    place: dict[Any, tuple[float, float]] = {}
+    order = sorted(rows, reverse=True)
+    for level, dimension in enumerate(order):
+        above = {n: _middle(graph, n, place) for n in rows[dimension]}
+        row = sorted(rows[dimension], key=lambda n: (above[n], n))
+        for i, node in enumerate(row):
+            place[node] = ((i + 0.5) * widest / len(row), -1.6 * level)
+    figure = canvas(max(5.0, 1.75 * widest), 0.8 + 1.5 * len(order))
+    axes = figure.add_subplot()
+    axes.axis("off")
+    boxes = {}
+    for node, data in graph.nodes(data=True):
+        count = f"\n{data['points']} points" if data["points"] else ""
+        box = {"boxstyle": "round,pad=0.4", "fc": LINK if data["number"] else PLATFORM, "ec": INK}
+        text = f"{data['label']}{count}"
+        shown = axes.text(
+            *place[node], text, ha="center", va="center", fontsize=8.5, color=INK, bbox=box, zorder=3
+        )
+        boxes[node] = shown.get_bbox_patch()
+    for a, b, whole in graph.edges(data="whole"):
+        line = {"arrowstyle": "-|>", "color": PALE, "lw": 1.3, "ls": "-" if whole else "--"}
+        arrow = {**line, "patchA": boxes[a], "patchB": boxes[b], "shrinkA": 1, "shrinkB": 1}
+        axes.annotate("", place[b], place[a], arrowprops=arrow, zorder=1)
+    for level, dimension in enumerate(order):
+        axes.text(-0.55, -1.6 * level, f"dim {dimension}", ha="right", va="center", fontsize=9, color=INK)
+    axes.set(xlim=(-1.1, widest + 0.1), ylim=(-1.6 * (len(order) - 1) - 0.7, 0.7))
+    title = "Strata, with arrows into the closures that hold them"
+    figure.suptitle(title, fontsize=12, color=INK)
+    lines = [f"{_one_line(graph, a)} lies in the closure of {_one_line(graph, b)}" for a, b in graph.edges]
+    return Picture(figure, title, "; ".join(lines))
+
+
+def _middle(graph: networkx.DiGraph, node: Any, place: dict[Any, tuple[float, float]]) -> float:
+    """The mean place of what lies above, so that few edges cross."""
+    above = [place[n][0] for n in graph.successors(node) if n in place]
+    return sum(above) / len(above) if above else 0.0
+
+
+def _one_line(graph: networkx.DiGraph, node: Any) -> str:
+    return str(graph.nodes[node]["label"]).replace("\n", ": ", 1).replace("\n", " and ")
