@@ -1,0 +1,173 @@
+"""A mechanism that a slider moves along its singularity curves: frames as SVG points, a few lines of script.
+
+Source: singsym's own; the frames lie on the tracked curves of varieties/real/curve.py.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from html import escape
+
+import numpy as np
+from numpy.typing import NDArray
+
+from singsym.mechanism.model import JointKind, Space
+from singsym.output.plot_curves import Coordinate, Trace
+from singsym.output.plot_scene import Scene, Stage
+
+Floats = NDArray[np.float64]
+
+FRAMES = 72
+"""Configurations along each arc."""
+
+_WIDTH = 640
+_VIEW = np.array([[0.88, -0.28], [0.47, 0.53], [0.0, 0.8]])
+
+
+@dataclass(frozen=True)
+class _Shape:
+    """An SVG element and the places, by index, that it follows."""
+
+    kind: str
+    style: str
+    places: tuple[int, ...]
+    text: str = ""
+
+
+def motion(stage: Stage, traces: Sequence[Trace]) -> str:
+    """The slider with its drawing as HTML; "" where there is no curve."""
+    arcs = [
+        (f"{trace.label}, part {k} of {len(trace.components)}", arc)
+        for trace in traces
+        for k, component in enumerate(trace.components, 1)
+        for arc in component
+        if len(arc) > 1
+    ]
+    if not arcs:
+        return ""
+    sampled = [(label, _resampled(arc)) for label, arc in arcs]
+    first = stage.scene(sampled[0][1][0])
+    shapes = _shapes(first)
+    projected = [np.array([_flat(stage.scene(p)) for p in points]) for _, points in sampled]
+    low, scale, height = _fit(np.concatenate([p.reshape(-1, 2) for p in projected]))
+    curves = []
+    inputs = [
+        Coordinate(label, stage.equation)
+        for label in stage.mechanism.inputs
+        if label in stage.equation.values
+    ]
+    for (label, points), places in zip(sampled, projected, strict=True):
+        pixels = (places - low) * scale
+        pixels[..., 1] = height - pixels[..., 1]
+        values = [c.at(points) * (180 / np.pi if c.is_angle else 1) for c in inputs]
+        notes = [
+            ", ".join(
+                f"{c.label} = {v[i]:.1f}{'°' if c.is_angle else ''}"
+                for c, v in zip(inputs, values, strict=True)
+            )
+            for i in range(len(points))
+        ]
+        frames = pixels.reshape(len(points), -1).round().astype(int).tolist()
+        curves.append({"label": label, "frames": frames, "notes": notes})
+    drawing = "".join(_element(s, curves[0]["frames"][0]) for s in shapes)
+    options = "".join(f'<option value="{i}">{escape(str(c["label"]))}</option>' for i, c in enumerate(curves))
+    data = json.dumps(curves, separators=(",", ":"), ensure_ascii=False).replace("<", "\\u003c")
+    return (
+        '<div class="motion">'
+        f'<svg viewBox="0 0 {_WIDTH} {round(height)}" role="img" aria-label="The mechanism on a singularity curve">'
+        f"{drawing}</svg>"
+        f'<p><label>Curve <select class="curve">{options}</select></label></p>'
+        f'<p><label>Place on it <input class="place" type="range" min="0" max="{FRAMES - 1}" value="0"></label> '
+        f'<output aria-live="polite">{escape(str(curves[0]["notes"][0]))}</output></p>'
+        f'<script type="application/json">{data}</script></div>'
+    )
+
+
+SCRIPT = """
+for (const box of document.querySelectorAll('.motion')) {
+  const curves = JSON.parse(box.querySelector('script').textContent);
+  const curve = box.querySelector('.curve'), place = box.querySelector('.place');
+  const draw = () => {
+    const c = curves[curve.value], f = c.frames[place.value];
+    for (const e of box.querySelectorAll('[data-at]')) {
+      const at = e.dataset.at.split(' ').map(i => [f[2 * i], f[2 * i + 1]]);
+      if (e.tagName === 'circle') { e.setAttribute('cx', at[0][0]); e.setAttribute('cy', at[0][1]); }
+      else if (e.tagName === 'text') { e.setAttribute('x', at[0][0] + 12); e.setAttribute('y', at[0][1] - 10); }
+      else e.setAttribute('points', at.map(p => p.join()).join(' '));
+    }
+    box.querySelector('output').textContent = c.notes[place.value];
+  };
+  curve.addEventListener('change', draw);
+  place.addEventListener('input', draw);
+}
+"""
+
+
+def _resampled(line: Floats) -> Floats:
+    """So many vertices of a polyline at even distances."""
+    steps = np.linalg.norm(np.diff(line, axis=0), axis=1)
+    along = np.concatenate([[0.0], np.cumsum(steps)])
+    wanted = np.linspace(0, along[-1], FRAMES)
+    return np.array([np.interp(wanted, along, column) for column in line.T]).T
+
+
+def _flat(scene: Scene) -> Floats:
+    """All places that shapes follow, in two coordinates: corners of links, joints, ends of slides, names."""
+    places = [p for body in scene.bodies for p in body.points.values()]
+    places += [m.place for m in scene.marks]
+    half = 0.06 * scene.size
+    for mark in scene.marks:
+        shift = half * mark.direction if mark.direction is not None else 0 * mark.place
+        places += [mark.place - shift, mark.place + shift]
+    places += list(scene.names.values())
+    stacked = np.array(places)
+    return stacked if stacked.shape[1] == 2 else np.asarray(stacked @ _VIEW, dtype=np.float64)
+
+
+def _shapes(scene: Scene) -> list[_Shape]:
+    """What is drawn, in the order of `_flat`."""
+    shapes: list[_Shape] = []
+    index = 0
+    for body in scene.bodies:
+        corners = tuple(range(index, index + len(body.points)))
+        index += len(corners)
+        if body.ground and scene.space is Space.PLANAR:
+            continue
+        style = "ground" if body.ground else "platform" if body.output else "link"
+        if len(corners) > 1:
+            shapes.append(_Shape("polygon" if len(corners) > 2 else "polyline", style, corners))
+    marks = index
+    ends = marks + len(scene.marks)
+    for k, mark in enumerate(scene.marks):
+        role = "input" if mark.active else "output" if mark.output else "passive"
+        if mark.direction is not None:
+            kind = "slider" if mark.joint.kind is JointKind.P else "axis"
+            shapes.append(_Shape("polyline", f"{kind} {role}", (ends + 2 * k, ends + 2 * k + 1)))
+        fixed = " fixed" if mark.grounded else ""
+        shapes.append(_Shape("circle", f"pin {role}{fixed}", (marks + k,)))
+    names = ends + 2 * len(scene.marks)
+    for k, name in enumerate(scene.names):
+        shapes.append(_Shape("text", "name", (names + k,), name.partition(".")[2] or name))
+    return shapes
+
+
+def _fit(points: Floats) -> tuple[Floats, float, float]:
+    """Lower left corner, pixels per length, and height of the drawing."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    margin = 0.08 * float((high - low).max())
+    low, high = low - margin, high + margin
+    scale = min(_WIDTH / float(high[0] - low[0]), 0.85 * _WIDTH / float(high[1] - low[1]))
+    return low, scale, scale * float(high[1] - low[1])
+
+
+def _element(shape: _Shape, frame: list[int]) -> str:
+    at = [(frame[2 * i], frame[2 * i + 1]) for i in shape.places]
+    data = " ".join(map(str, shape.places))
+    start = f'<{shape.kind} class="{shape.style}" data-at="{data}"'
+    if shape.kind == "circle":
+        return f'{start} cx="{at[0][0]}" cy="{at[0][1]}" r="7"/>'
+    if shape.kind == "text":
+        return f'{start} x="{at[0][0] + 12}" y="{at[0][1] - 10}">{escape(shape.text)}</text>'
+    return f'{start} points="{" ".join(f"{x},{y}" for x, y in at)}"/>'

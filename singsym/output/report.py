@@ -1,0 +1,369 @@
+"""The report: one self-contained HTML page with the classes, figures, equations and proofs of a mechanism.
+
+Source: the layout follows section 3.3 and Table 2 of Zlatanov, Fenton, Benhabib (1998).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from html import escape
+
+from singsym.classes.result import Classification, ClassResult, Piece
+from singsym.mechanism.model import JointRate
+from singsym.output import html_math as math
+from singsym.output import html_page as html
+
+LARGEST_MATRIX = 400
+"""Matrices with more entries are left out of the page."""
+
+WITNESSES = 24
+"""Not more configurations of a class are listed."""
+
+
+def report(classification: Classification) -> str:
+    """The page as text: write it to a file that ends in `.html`; it loads nothing from elsewhere.
+
+    >>> from singsym.classes.classify import classify
+    >>> from singsym.mechanism import load
+    >>> page = report(classify(load("slider-crank"), cache=False))
+    >>> page[:15], "<math" in page, "class-1" in page
+    ('<!DOCTYPE html>', True, True)
+    """
+    from singsym.output.html_motion import SCRIPT
+
+    name = _title(classification)
+    sections = [
+        ("singularity-set", "Singularity set", _summary(classification)),
+        ("classes", "Classes", _classes(classification)),
+        ("curves", "Singularity curves", _curves(classification)),
+        ("strata", "Strata", _strata(classification)),
+        ("equations", "Equations", _equations(classification)),
+        ("proofs", "Proofs", _proofs(classification)),
+    ]
+    shown = [(key, title, body) for key, title, body in sections if body]
+    links = "".join(f'<li><a href="#{key}">{title}</a></li>' for key, title, _ in shown)
+    parts = [f"<header><h1>{escape(name)}</h1>{_head(classification)}</header>"]
+    parts.append(f'<nav aria-label="Contents"><ul>{links}</ul></nav><main>')
+    parts += [f'<section id="{key}"><h2>{title}</h2>{body}</section>' for key, title, body in shown]
+    engines = escape(", ".join(classification.engines))
+    parts.append(
+        f'</main><footer class="note"><p>singsym, {classification.seconds:.1f} s, {engines}</p></footer>'
+    )
+    return html.page(f"Singularities: {name}", "\n".join(parts), SCRIPT)
+
+
+def _title(classification: Classification) -> str:
+    mechanism = classification.mechanism
+    return "Given equations" if mechanism is None else mechanism.title or mechanism.name
+
+
+def _head(classification: Classification) -> str:
+    """What the mechanism is, with a figure."""
+    from singsym.output.plot import plot_mechanism
+
+    mechanism, equation = classification.mechanism, classification.equation
+    facts = [f"N = {equation.N} joints of one degree of freedom, mobility n = {equation.n}"]
+    if mechanism is None:
+        return f"<p>{facts[0]}.</p>"
+    outputs = [
+        f"rate of {o.column}"
+        if isinstance(o, JointRate)
+        else f"motion of {o.point} ({', '.join(o.components)})"
+        for o in mechanism.outputs
+    ]
+    facts += [f"Inputs: {', '.join(mechanism.inputs)}", f"Output: {'; '.join(outputs)}"]
+    lines = "".join(f"<li>{escape(fact)}</li>" for fact in facts)
+    text = f"<p>{escape(mechanism.description.strip())}</p>" if mechanism.description else ""
+    source = f'<p class="note">Source: {escape(mechanism.source)}</p>' if mechanism.source else ""
+    witness = next((w for c in classification.classes for w in c.witnesses), None)
+    coordinates = None if witness is None else witness.coordinates
+    try:
+        drawn = html.figure(plot_mechanism(mechanism, coordinates, equation=equation, seed=1), "mechanism")
+    except ValueError:
+        # no configuration was found numerically: the page does without the figure
+        drawn = ""
+    return f'<div class="class"><div>{text}<ul>{lines}</ul>{source}</div>{drawn}</div>'
+
+
+# -- summary -------------------------------------------------------------------------------------------
+
+
+def _count(number: int | None, one: str) -> str:
+    return "" if number is None else f"{number} {one}{'' if number == 1 else 's'}"
+
+
+def _summary(classification: Classification) -> str:
+    space = [
+        f"<li>Configuration space: dimension {_known(p.dimension)}, smooth: {escape(p.smooth)}"
+        f"{'; ' + escape(p.remark) if p.remark else ''}</li>"
+        for p in classification.configuration_space
+    ]
+    rows = []
+    for i, locus in enumerate(classification.loci):
+        style = "no" if locus.verdict.is_no else "undecided" if locus.verdict.is_undecided else ""
+        size = "empty" if locus.verdict.is_no else _known(locus.dimension)
+        count = _count(locus.points, "point") or _count(locus.components, "component")
+        link = f'<a href="#locus-{i}">({escape(locus.condition)})</a>'
+        rows.append((style, (link, _locus_name(classification, i), escape(locus.words), size, count)))
+    headers = ("condition", "vanishes", "in words", "dimension", "parts")
+    loci = html.table(headers, rows, "Loci of conditions (4) and (5)") if rows else ""
+    return (
+        f"<ul>{''.join(space)}</ul><p>Conditions (4) and (5), det L<sub>I</sub> = 0 and det L<sub>O</sub> = 0, "
+        f"in factors:</p>{loci}<h3>The 21 classes</h3>{_class_table(classification)}"
+    )
+
+
+def _known(number: int | None) -> str:
+    return "undecided" if number is None else str(number)
+
+
+def _locus_name(classification: Classification, index: int) -> str:
+    """The name of a determinant if it has one, else the polynomial, short."""
+    locus = classification.loci[index]
+    head, named, _ = locus.latex.partition(" = ")
+    if named and locus.words:
+        return math.formula(math.name(head))
+    return math.formula(math.polynomial(locus.factor, 8))
+
+
+def _class_table(classification: Classification) -> str:
+    rows = []
+    for result in classification.classes:
+        number, verdict = result.singularity_class.number, result.verdict
+        target = f"class-{number}" if verdict.is_yes else f"proof-{number}"
+        style = "no" if verdict.is_no else "undecided" if verdict.is_undecided else ""
+        count = _count(result.points, "point") or _count(result.components, "component")
+        there = {"yes": "yes", "no": "no", "undecided": "undecided"}[str(verdict.answer)]
+        dimension = "" if verdict.is_no else _known(result.dimension)
+        cells = (
+            f'<a href="#{target}">{number}</a>',
+            escape(result.singularity_class.name),
+            there,
+            dimension,
+            count,
+            escape(", ".join(result.steps)),
+        )
+        rows.append((style, cells))
+    headers = ("class", "types", "there?", "dimension", "parts", "step of §3.2")
+    return html.table(headers, rows, "The 21 classes")
+
+
+# -- classes -------------------------------------------------------------------------------------------
+
+
+def _classes(classification: Classification) -> str:
+    present = [c for c in classification.classes if c.verdict.is_yes]
+    if not present:
+        return "<p>No class was found.</p>"
+    return "".join(_class(classification, result) for result in present)
+
+
+def _class(classification: Classification, result: ClassResult) -> str:
+    from singsym.output.plot import plot_class
+
+    number = result.singularity_class.number
+    drawn = ""
+    if classification.mechanism is not None and result.witnesses:
+        picture = plot_class(classification, result)
+        drawn = html.figure(picture, f"figure-{number}", picture.description)
+    size = [f"dimension {_known(result.dimension)}"]
+    size += [text for text in (_count(result.points, "point"),) if text]
+    if not result.points and result.components:
+        size.append(_count(result.components, "component") + " (closed up)")
+    defects = dict.fromkeys(
+        f"δ = {d.delta}, p = {d.p}, k_I = {d.k_I}, k_O = {d.k_O}" for d in (p.defects for p in result.pieces)
+    )
+    pieces = "".join(f"<li>{_piece(classification, piece)}</li>" for piece in _distinct(result))
+    return (
+        f'<section id="class-{number}"><h3>Class {number}: {escape(result.singularity_class.name)}</h3>'
+        f'<div class="class"><div><p>{escape(result.singularity_class.words.capitalize())}. '
+        f"{escape(', '.join(size).capitalize())}.</p><p>Rank defects: {escape('; '.join(defects))}.</p>"
+        f"<ul>{pieces}</ul>{_impossible(classification, result)}"
+        f'<p><a href="#proof-{number}">How this is known</a></p></div>{drawn}</div>'
+        f"{_witnesses(result)}</section>"
+    )
+
+
+def _distinct(result: ClassResult) -> list[Piece]:
+    """One piece for each set of factors."""
+    return list({(p.path, p.exclusions): p for p in result.pieces}.values())
+
+
+def _piece(classification: Classification, piece: Piece) -> str:
+    """What vanishes on a piece, linked to the loci, and what does not."""
+    place = {locus.factor: i for i, locus in reversed(list(enumerate(classification.loci)))}
+    lines = []
+    for p in piece.path:
+        if p in place:
+            i = place[p]
+            words = classification.loci[i].words
+            shown = escape(words) if words else f"{_locus_name(classification, i)} = 0"
+            lines.append(f'<a href="#locus-{i}">{shown}</a>')
+        else:
+            lines.append(math.formula(math.equation(p, longest=12)))
+    factors = [f for e in piece.exclusions if len(e) == 1 for f, _ in e[0].factors()]
+    unequal = []
+    for f in dict.fromkeys(factors):
+        words = classification.loci[place[f]].words if f in place else ""
+        unequal.append(f"not {escape(words)}" if words else math.formula(math.equation(f, "≠", 8)))
+    several = [e for e in piece.exclusions if len(e) > 1]
+    if several:
+        unequal.append(f"{len(several)} group{'s' if len(several) > 1 else ''} of minors not all zero")
+    text = " and ".join(lines) or "everywhere"
+    return text + (f'<br><span class="note">where {"; ".join(unequal)}</span>' if unequal else "")
+
+
+def _impossible(classification: Classification, result: ClassResult) -> str:
+    """Which input and output velocities are impossible at the configuration that is drawn."""
+    import numpy as np
+
+    from singsym.output.plot_motion import impossible
+
+    found = next(((w, p) for p in result.pieces for w in p.witnesses), None)
+    if found is None:
+        return ""
+    equation = classification.equation
+    coordinates = found[0].coordinates
+    point = np.array([float(coordinates[name]) for name in equation.space.ring.names])
+    lines = []
+    for role in ("input", "output"):
+        relation = impossible(equation, point, found[1].defects, role)
+        if relation:
+            lines.append(f"<li>{role} velocities must obey {escape(relation)}</li>")
+    return f"<p>At this configuration:</p><ul>{''.join(lines)}</ul>" if lines else ""
+
+
+def _witnesses(result: ClassResult) -> str:
+    if not result.witnesses:
+        return ""
+    shown = result.witnesses[:WITNESSES]
+    labels = list(dict.fromkeys(label for w in shown for label in (w.points or w.coordinates)))
+    rows = [
+        ("", [f"{float((w.points or w.coordinates).get(label, 'nan')):.6g}" for label in labels])
+        for w in shown
+    ]
+    listed = html.table(
+        [escape(x) for x in labels], rows, f"Configurations of class {result.singularity_class.number}"
+    )
+    rest = len(result.witnesses) - len(shown)
+    more = f"<p>{rest} more are left out.</p>" if rest else ""
+    certified = _count(len(result.witnesses), "certified configuration")
+    return f"<details><summary>{certified}</summary>{listed}{more}</details>"
+
+
+# -- curves and strata ---------------------------------------------------------------------------------
+
+
+def _curves(classification: Classification) -> str:
+    """Curves over the inputs and the output, and the slider; "" where no locus is a curve."""
+    from singsym.output.html_motion import motion
+    from singsym.output.plot_curves import input_plane, output_plane, plot_curves, trace_loci
+    from singsym.output.plot_scene import Stage
+
+    traces = trace_loci(classification)
+    if not traces:
+        return ""
+    drawn = []
+    for plane, find in (("inputs", input_plane), ("outputs", output_plane)):
+        if find(classification) is not None:
+            drawn.append(html.figure(plot_curves(classification, plane, traces), f"curves-{plane}"))
+    slider = ""
+    if classification.mechanism is not None:
+        moved = motion(Stage.of(classification.mechanism, classification.equation), traces)
+        slider = f"<h3>Along a curve</h3>{moved}" if moved else ""
+    note = '<p class="note">The curves are tracked for drawing; the counts above are proven apart.</p>'
+    return f'<div class="figures">{"".join(drawn)}</div>{note}{slider}'
+
+
+def _strata(classification: Classification) -> str:
+    from singsym.output.strata_graph import plot_strata, strata_graph
+
+    graph = strata_graph(classification)
+    if len(graph) < 2:
+        return ""
+    caption = "An arrow goes from a stratum to one whose closure holds it (dashed: holds a part of it)."
+    missing = graph.graph["undecided"]
+    if missing:
+        caption += f" {missing} comparisons were not finished and their arrows are missing."
+    return html.figure(plot_strata(classification, graph), "strata-graph", caption)
+
+
+# -- equations and proofs ------------------------------------------------------------------------------
+
+
+def _equations(classification: Classification) -> str:
+    equation, reduction = classification.equation, classification.reduction
+    space = equation.space
+    loops = "".join(_line(math.equation(e, longest=24)) for e in space.equations)
+    parts = [f"<p>Configuration variables: {escape(', '.join(space.variables))}.</p>"]
+    parts.append(f"<h3>Loop equations</h3>{loops}" if loops else "<p>No loop equations.</p>")
+    columns = [c.label for c in equation.columns]
+    parts.append(f"<h3>Velocity equation</h3>{_matrix(equation.L, columns)}")
+    lines = "".join(f"<li>{escape(line)}</li>" for line in reduction.lines)
+    parts.append(f"<h3>Reduction (section 4.2)</h3><ol>{lines}</ol>")
+    reduced = [c.label for c in reduction.equation.columns]
+    parts.append(_matrix(reduction.equation.L, reduced))
+    parts.append("<h3>Loci</h3>")
+    for i, locus in enumerate(classification.loci):
+        head, named, _ = locus.latex.partition(" = ")
+        lead = f"{math.name(head)}<mo>=</mo>" if named and locus.words else ""
+        words = f": {escape(locus.words)}" if locus.words else ""
+        used = [c.singularity_class.number for c in classification.classes if _uses(c, i, classification)]
+        where = ", ".join(f'<a href="#class-{n}">class {n}</a>' for n in used)
+        parts.append(
+            f'<div id="locus-{i}"><p>({escape(locus.condition)}){words}{" — " + where if where else ""}</p>'
+            f"{_line(lead + math.equation(locus.factor))}</div>"
+        )
+    return "".join(parts)
+
+
+def _uses(result: ClassResult, index: int, classification: Classification) -> bool:
+    factor = classification.loci[index].factor
+    return result.verdict.is_yes and any(factor in piece.path for piece in result.pieces)
+
+
+def _line(elements: str) -> str:
+    return f'<div class="formula" tabindex="0">{math.formula(elements)}</div>'
+
+
+def _matrix(matrix: math.PolynomialMatrix, columns: list[str]) -> str:
+    rows, width = matrix.shape
+    if rows * width > LARGEST_MATRIX:
+        return f"<p>A {rows}×{width} matrix, left out for its size.</p>"
+    return f'<div class="formula" tabindex="0">{math.formula(math.matrix(matrix, columns))}</div>'
+
+
+def _proofs(classification: Classification) -> str:
+    return "".join(_proof(result) for result in classification.classes)
+
+
+def _proof(result: ClassResult) -> str:
+    number, verdict = result.singularity_class.number, result.verdict
+    back = f' <a href="#class-{number}">(the class)</a>' if verdict.is_yes else ""
+    lines = "".join(f"<li>{line}</li>" for line in _grounds(result))
+    answer = {"yes": "It exists", "no": "It is empty", "undecided": "Undecided"}[str(verdict.answer)]
+    certainty = f" ({escape(str(verdict.certainty))})" if not verdict.is_undecided else ""
+    return (
+        f'<section id="proof-{number}"><h3>Class {number}: {escape(result.singularity_class.name)}{back}</h3>'
+        f"<p>{answer}{certainty}, step {escape(', '.join(result.steps) or '–')} of section 3.2.</p>"
+        f"<ul>{lines}</ul></section>"
+    )
+
+
+def _grounds(result: ClassResult) -> Iterator[str]:
+    """The reasons of a verdict, in sentences."""
+    if result.verdict.reason:
+        yield escape(result.verdict.reason)
+    seen: dict[str, int] = {}
+    for piece in result.pieces:
+        size = "" if piece.dimension is None or piece.dimension < 0 else f", real dimension {piece.dimension}"
+        points = f", {_count(piece.points, 'real point')}" if piece.points else ""
+        engine = f", by {piece.verdict.engine}" if piece.verdict.engine else ""
+        reason = f": {piece.verdict.reason}" if piece.verdict.reason else ""
+        line = (
+            f"a stratum of {len(piece.basis)} equations, complex dimension {piece.complex_dimension}{size}{points}: "
+            f"{piece.verdict.answer} ({piece.verdict.certainty}{engine}){reason}"
+        )
+        seen[line] = seen.get(line, 0) + 1
+    for line, times in seen.items():
+        yield escape(line if times == 1 else f"{times} times {line}")
