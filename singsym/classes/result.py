@@ -5,8 +5,9 @@ Source: Zlatanov, Fenton, Benhabib (1998), section 3.2 and the layout of Table 2
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from html import escape
 from typing import Any
 
 from singsym.classes.types import Defects, SingularityClass, SingularityType
@@ -39,6 +40,10 @@ class Configuration:
     def floats(self) -> dict[str, float]:
         """The configuration variables as floats, for drawing."""
         return {name: float(value) for name, value in self.coordinates.items()}
+
+    def _repr_html_(self) -> str:
+        rows = [(name, value) for name, value in (self.points or self.coordinates).items()]
+        return _html_table((), [*rows, ("error below", self.radius)])
 
 
 @dataclass(frozen=True)
@@ -79,6 +84,9 @@ class Locus:
     components: int | None = None
     points: int | None = None
 
+    def _repr_latex_(self) -> str:
+        return f"$\\displaystyle {self.latex} = 0$"
+
 
 @dataclass(frozen=True)
 class ClassResult:
@@ -105,6 +113,9 @@ class ClassResult:
     def witnesses(self) -> tuple[Configuration, ...]:
         """Certified configurations, those of the largest pieces first."""
         return tuple(w for piece in self.pieces for w in piece.witnesses)
+
+    def _repr_latex_(self) -> str:
+        return f"$\\displaystyle {self.conditions}$" if self.conditions else "no configuration"
 
 
 @dataclass(frozen=True)
@@ -146,6 +157,14 @@ class Classification:
             if result.types == types:
                 return result
         raise KeyError(f"{types!r} is not one of the {len(self.classes)} classes")
+
+    def _repr_html_(self) -> str:
+        headers = ("class", "types", "there?", "dimension", "points", "components", "step")
+        rows = [
+            (c.singularity_class.number, c.singularity_class.name, c.verdict.answer, *_sizes(c), *c.steps)
+            for c in self.classes
+        ]
+        return _html_table(headers, rows)
 
     def as_json(self) -> dict[str, Any]:
         """The fields that `singsym classify --format json` prints."""
@@ -196,3 +215,18 @@ class Classification:
             "engines": list(self.engines),
             "seconds": round(self.seconds, 3),
         }
+
+
+def _sizes(result: ClassResult) -> tuple[str, str, str]:
+    """Dimension, points and components, blank where there is none or it is not known."""
+    dimension, points, components = (
+        "" if x is None else str(x) for x in (result.dimension, result.points, result.components)
+    )
+    return dimension, points, components
+
+
+def _html_table(headers: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
+    """A plain table, as notebooks show it."""
+    head = "".join(f"<th>{escape(h)}</th>" for h in headers)
+    body = "".join("<tr>" + "".join(f"<td>{escape(str(x))}</td>" for x in row) + "</tr>" for row in rows)
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"

@@ -37,6 +37,7 @@ def polynomial(p: Polynomial, longest: int = LONGEST) -> str:
     cut = len(p) > longest
     shown = ring.from_dict(dict(p.terms()[:longest])) if cut else p
     text = str(mathml(ring.to_sympy(shown).xreplace(_indexed(shown)), printer="presentation"))
+    text = text.replace("<mo>-</mo>", "<mo>−</mo>")
     rest = f"<mo>+</mo><mtext>… ({len(p) - longest} more terms)</mtext>" if cut else ""
     return text + rest
 
@@ -66,7 +67,12 @@ def matrix(m: PolynomialMatrix, columns: list[str]) -> str:
 
 
 _TOKEN = re.compile(r"\\[a-zA-Z]+|\\,|[{}_]|[0-9]+|[a-zA-Z]+|\S")
-_WORDS = {r"\det": "<mi>det</mi>", r"\cdot": "<mo>·</mo>", r"\,": '<mspace width="0.2em"/>'}
+_WORDS = {
+    "-": "<mo>−</mo>",
+    r"\det": "<mi>det</mi>",
+    r"\cdot": "<mo>·</mo>",
+    r"\,": '<mspace width="0.2em"/>',
+}
 
 
 def name(latex: str) -> str:

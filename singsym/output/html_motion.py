@@ -22,7 +22,7 @@ Floats = NDArray[np.float64]
 FRAMES = 72
 """Configurations along each arc."""
 
-_WIDTH = 640
+_WIDTH, _HEIGHT, _MARGIN = 640, 480, 45
 _VIEW = np.array([[0.88, -0.28], [0.47, 0.53], [0.0, 0.8]])
 
 
@@ -51,7 +51,6 @@ def motion(stage: Stage, traces: Sequence[Trace]) -> str:
     first = stage.scene(sampled[0][1][0])
     shapes = _shapes(first)
     projected = [np.array([_flat(stage.scene(p)) for p in points]) for _, points in sampled]
-    low, scale, height = _fit(np.concatenate([p.reshape(-1, 2) for p in projected]))
     curves = []
     inputs = [
         Coordinate(label, stage.equation)
@@ -59,8 +58,7 @@ def motion(stage: Stage, traces: Sequence[Trace]) -> str:
         if label in stage.equation.values
     ]
     for (label, points), places in zip(sampled, projected, strict=True):
-        pixels = (places - low) * scale
-        pixels[..., 1] = height - pixels[..., 1]
+        pixels = _fitted(places)
         values = [c.at(points) * (180 / np.pi if c.is_angle else 1) for c in inputs]
         notes = [
             ", ".join(
@@ -76,10 +74,11 @@ def motion(stage: Stage, traces: Sequence[Trace]) -> str:
     data = json.dumps(curves, separators=(",", ":"), ensure_ascii=False).replace("<", "\\u003c")
     return (
         '<div class="motion">'
-        f'<svg viewBox="0 0 {_WIDTH} {round(height)}" role="img" aria-label="The mechanism on a singularity curve">'
-        f"{drawing}</svg>"
+        f'<svg viewBox="0 0 {_WIDTH} {_HEIGHT}" role="img" '
+        f'aria-label="The mechanism on a singularity curve">{drawing}</svg>'
         f'<p><label>Curve <select class="curve">{options}</select></label></p>'
-        f'<p><label>Place on it <input class="place" type="range" min="0" max="{FRAMES - 1}" value="0"></label> '
+        '<p><label>Place on it <input class="place" type="range" min="0" '
+        f'max="{FRAMES - 1}" value="0"></label> '
         f'<output aria-live="polite">{escape(str(curves[0]["notes"][0]))}</output></p>'
         f'<script type="application/json">{data}</script></div>'
     )
@@ -93,8 +92,10 @@ for (const box of document.querySelectorAll('.motion')) {
     const c = curves[curve.value], f = c.frames[place.value];
     for (const e of box.querySelectorAll('[data-at]')) {
       const at = e.dataset.at.split(' ').map(i => [f[2 * i], f[2 * i + 1]]);
-      if (e.tagName === 'circle') { e.setAttribute('cx', at[0][0]); e.setAttribute('cy', at[0][1]); }
-      else if (e.tagName === 'text') { e.setAttribute('x', at[0][0] + 12); e.setAttribute('y', at[0][1] - 10); }
+      const set = (x, y) => { e.setAttribute(x, at[0][0]); e.setAttribute(y, at[0][1]); };
+      if (e.tagName === 'circle') set('cx', 'cy');
+      else if (e.tagName === 'text') set('x', 'y');
+      else if (e.tagName === 'path') e.setAttribute('transform', `translate(${at[0]})`);
       else e.setAttribute('points', at.map(p => p.join()).join(' '));
     }
     box.querySelector('output').textContent = c.notes[place.value];
@@ -146,6 +147,8 @@ def _shapes(scene: Scene) -> list[_Shape]:
             kind = "slider" if mark.joint.kind is JointKind.P else "axis"
             shapes.append(_Shape("polyline", f"{kind} {role}", (ends + 2 * k, ends + 2 * k + 1)))
         fixed = " fixed" if mark.grounded else ""
+        if fixed and scene.space is Space.PLANAR and mark.joint.kind is not JointKind.P:
+            shapes.append(_Shape("path", "foot", (marks + k,)))
         shapes.append(_Shape("circle", f"pin {role}{fixed}", (marks + k,)))
     names = ends + 2 * len(scene.marks)
     for k, name in enumerate(scene.names):
@@ -153,21 +156,24 @@ def _shapes(scene: Scene) -> list[_Shape]:
     return shapes
 
 
-def _fit(points: Floats) -> tuple[Floats, float, float]:
-    """Lower left corner, pixels per length, and height of the drawing."""
-    low, high = points.min(axis=0), points.max(axis=0)
-    margin = 0.08 * float((high - low).max())
-    low, high = low - margin, high + margin
-    scale = min(_WIDTH / float(high[0] - low[0]), 0.85 * _WIDTH / float(high[1] - low[1]))
-    return low, scale, scale * float(high[1] - low[1])
+def _fitted(places: Floats) -> Floats:
+    """Places of all frames of an arc in pixels, the mechanism in the middle."""
+    flat = places.reshape(-1, 2)
+    low, high = flat.min(axis=0), flat.max(axis=0)
+    room = np.array([_WIDTH, _HEIGHT]) - 2 * _MARGIN
+    scale = float((room / np.maximum(high - low, 1e-9)).min())
+    found: Floats = np.array([_WIDTH, _HEIGHT]) / 2 + (places - (low + high) / 2) * (scale, -scale)
+    return found
 
 
-def _element(shape: _Shape, frame: list[int]) -> str:
+def _element(shape: _Shape, frame: Sequence[int]) -> str:
     at = [(frame[2 * i], frame[2 * i + 1]) for i in shape.places]
     data = " ".join(map(str, shape.places))
     start = f'<{shape.kind} class="{shape.style}" data-at="{data}"'
     if shape.kind == "circle":
         return f'{start} cx="{at[0][0]}" cy="{at[0][1]}" r="7"/>'
+    if shape.kind == "path":
+        return f'{start} d="M0 0l-13 22h26z" transform="translate({at[0][0]},{at[0][1]})"/>'
     if shape.kind == "text":
-        return f'{start} x="{at[0][0] + 12}" y="{at[0][1] - 10}">{escape(shape.text)}</text>'
+        return f'{start} x="{at[0][0]}" y="{at[0][1]}" dx="12" dy="-10">{escape(shape.text)}</text>'
     return f'{start} points="{" ".join(f"{x},{y}" for x, y in at)}"/>'

@@ -53,7 +53,7 @@ a { color: var(--ri); } a:focus-visible, input:focus-visible, select:focus-visib
 nav ul { display: flex; flex-wrap: wrap; gap: .25rem 1.25rem; padding: 0; list-style: none; }
 .wide { overflow-x: auto; } table { border-collapse: collapse; }
 th, td { padding: .3rem .7rem; text-align: left; vertical-align: top; border-bottom: 1px solid var(--pale);
-  overflow-wrap: normal; }
+  white-space: nowrap; }
 tr.no { color: var(--faint); } .undecided { color: var(--input); font-weight: 600; }
 figure { margin: 1rem 0; } figure svg, .motion svg { max-width: 100%; height: auto; }
 figcaption, .note { color: var(--faint); font-size: .92rem; }
@@ -69,7 +69,8 @@ mtr.labels { color: var(--faint); font-size: .8em; }
 .motion .ground { fill: var(--pale); stroke: var(--pale); fill-opacity: .2; }
 .motion polyline { stroke-linecap: round; } .motion .slider { stroke: var(--ink); stroke-width: 18;
   stroke-opacity: .45; stroke-linecap: butt; } .motion .axis { stroke: var(--ink); stroke-width: 2; }
-.motion .pin { fill: var(--paper); stroke: var(--ink); stroke-width: 3; } .motion .pin.fixed { fill: var(--pale); }
+.motion .pin { fill: var(--paper); stroke: var(--ink); stroke-width: 3; }
+.motion .foot { fill: var(--pale); stroke: var(--ink); stroke-width: 2; }
 .motion .pin.input, .motion .axis.input, .motion .slider.input { stroke: var(--input); }
 .motion .pin.output, .motion .slider.output { stroke: var(--output); }
 .motion .name { fill: var(--ink); font: 20px system-ui, sans-serif; }
@@ -90,7 +91,7 @@ def page(title: str, body: str, script: str = "") -> str:
 
 
 def figure(picture: Picture, key: str, caption: str = "") -> str:
-    """A picture inline: its colours follow the page, its ids begin with `key`, its description is read out."""
+    """A picture inline: its colours follow the page, its ids begin with `key`, it is described in words."""
     svg = picture.svg()
     svg = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.DOTALL)
     svg = re.sub(r'\bid="', f'id="{key}-', svg)

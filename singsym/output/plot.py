@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from singsym.classes.types import Defects, SingularityType
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import Mechanism, Space
@@ -16,7 +18,7 @@ from singsym.output.plot_style import Picture
 if TYPE_CHECKING:
     from singsym.classes.result import Classification, ClassResult
     from singsym.output.plot_motion import Motion
-    from singsym.output.plot_scene import Floats, Stage
+    from singsym.output.plot_scene import Floats, Scene, Stage
 
 
 def plot_mechanism(
@@ -58,7 +60,7 @@ def plot_class(
     shown = [(w, piece) for piece in found.pieces for w in piece.witnesses]
     if witness >= len(shown):
         raise ValueError(
-            f"class {found.singularity_class}: {len(shown)} configurations known, no {witness + 1}th"
+            f"class {found.singularity_class}: {len(shown)} configurations known, no number {witness + 1}"
         )
     configuration, piece = shown[witness]
     point = stage.vector(configuration.coordinates)
@@ -97,21 +99,29 @@ def _drawn(stage: Stage, point: Floats, motions: Sequence[Motion], title: str, d
     from singsym.output.plot_style import INK, MOTION, canvas
 
     planar = stage.mechanism.space is Space.PLANAR
-    figure = canvas(5.4, 4.8)
+    scene = stage.scene(point)
+    figure = canvas(5.4, _height(scene) if planar else 4.8)
     axes = figure.add_subplot(projection=None if planar else "3d")
     moving = [(m, stage.velocities(point, m.velocities)) for m in motions]
     if planar:
         from singsym.output.plot_planar import draw_planar
 
-        draw_planar(axes, stage.scene(point), moving)
+        draw_planar(axes, scene, moving)
     else:
         from singsym.output.plot_spatial import draw_spatial
 
-        draw_spatial(axes, stage.scene(point), moving)
+        draw_spatial(axes, scene, moving)
     figure.suptitle(title, fontsize=12, color=INK)
     for row, motion in enumerate(motions):
         figure.text(0.02, 0.02 + 0.04 * row, f"→ {motion.words}", fontsize=8.5, color=MOTION[motion.kind])
     return Picture(figure, title, description)
+
+
+def _height(scene: Scene) -> float:
+    """A height in inches that suits a planar scene on 5.4 inches of width, room for title and words kept."""
+    width, height = (float(x) for x in np.ptp(scene.all_points, axis=0))
+    margin = 0.4 * scene.size
+    return min(5.4, 1.0 + 5.0 * (height + margin) / (width + margin))
 
 
 def _words(mechanism: Mechanism) -> str:

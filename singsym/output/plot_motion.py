@@ -95,8 +95,14 @@ def impossible(equation: VelocityEquation, point: Floats, defects: Defects, role
     if lost <= 0 or len(values) == 0:
         return ""
     terms = [
-        f"{x:+.3g} {equation.columns[j].label}"
+        f"{_coefficient(x)}{equation.columns[j].label}"
         for x, j in zip(_scaled(vectors[-1]), kept, strict=True)
         if abs(x) > 1e-6
     ]
-    return " ".join(terms).removeprefix("+") + " = 0"
+    return " ".join(terms).removeprefix("+ ") + " = 0"
+
+
+def _coefficient(x: float) -> str:
+    """A sign and a factor, 1 left out."""
+    size = "" if abs(abs(x) - 1) < 1e-9 else f"{abs(x):.3g} "
+    return f"{'−' if x < 0 else '+'} {size}"

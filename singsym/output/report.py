@@ -12,6 +12,7 @@ from singsym.classes.result import Classification, ClassResult, Piece
 from singsym.mechanism.model import JointRate
 from singsym.output import html_math as math
 from singsym.output import html_page as html
+from singsym.polynomials import PolynomialMatrix
 
 LARGEST_MATRIX = 400
 """Matrices with more entries are left out of the page."""
@@ -108,8 +109,9 @@ def _summary(classification: Classification) -> str:
     headers = ("condition", "vanishes", "in words", "dimension", "parts")
     loci = html.table(headers, rows, "Loci of conditions (4) and (5)") if rows else ""
     return (
-        f"<ul>{''.join(space)}</ul><p>Conditions (4) and (5), det L<sub>I</sub> = 0 and det L<sub>O</sub> = 0, "
-        f"in factors:</p>{loci}<h3>The 21 classes</h3>{_class_table(classification)}"
+        f"<ul>{''.join(space)}</ul>"
+        "<p>Conditions (4) and (5), det L<sub>I</sub> = 0 and det L<sub>O</sub> = 0, in factors:</p>"
+        f"{loci}<h3>The 21 classes</h3>{_class_table(classification)}"
     )
 
 
@@ -171,13 +173,14 @@ def _class(classification: Classification, result: ClassResult) -> str:
     if not result.points and result.components:
         size.append(_count(result.components, "component") + " (closed up)")
     defects = dict.fromkeys(
-        f"δ = {d.delta}, p = {d.p}, k_I = {d.k_I}, k_O = {d.k_O}" for d in (p.defects for p in result.pieces)
+        f"δ = {d.delta}, p = {d.p}, k<sub>I</sub> = {d.k_I}, k<sub>O</sub> = {d.k_O}"
+        for d in (p.defects for p in result.pieces)
     )
     pieces = "".join(f"<li>{_piece(classification, piece)}</li>" for piece in _distinct(result))
     return (
         f'<section id="class-{number}"><h3>Class {number}: {escape(result.singularity_class.name)}</h3>'
         f'<div class="class"><div><p>{escape(result.singularity_class.words.capitalize())}. '
-        f"{escape(', '.join(size).capitalize())}.</p><p>Rank defects: {escape('; '.join(defects))}.</p>"
+        f"{escape(', '.join(size).capitalize())}.</p><p>Rank defects: {'; '.join(defects)}.</p>"
         f"<ul>{pieces}</ul>{_impossible(classification, result)}"
         f'<p><a href="#proof-{number}">How this is known</a></p></div>{drawn}</div>'
         f"{_witnesses(result)}</section>"
@@ -326,7 +329,7 @@ def _line(elements: str) -> str:
     return f'<div class="formula" tabindex="0">{math.formula(elements)}</div>'
 
 
-def _matrix(matrix: math.PolynomialMatrix, columns: list[str]) -> str:
+def _matrix(matrix: PolynomialMatrix, columns: list[str]) -> str:
     rows, width = matrix.shape
     if rows * width > LARGEST_MATRIX:
         return f"<p>A {rows}×{width} matrix, left out for its size.</p>"
@@ -361,8 +364,8 @@ def _grounds(result: ClassResult) -> Iterator[str]:
         engine = f", by {piece.verdict.engine}" if piece.verdict.engine else ""
         reason = f": {piece.verdict.reason}" if piece.verdict.reason else ""
         line = (
-            f"a stratum of {len(piece.basis)} equations, complex dimension {piece.complex_dimension}{size}{points}: "
-            f"{piece.verdict.answer} ({piece.verdict.certainty}{engine}){reason}"
+            f"a stratum of {len(piece.basis)} equations"
+            f"{size}{points}: {piece.verdict.answer} ({piece.verdict.certainty}{engine}){reason}"
         )
         seen[line] = seen.get(line, 0) + 1
     for line, times in seen.items():
