@@ -12,7 +12,7 @@ from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from singsym.classes.explore import Branch, Exploration, Loci, search
+from singsym.classes.explore import Branch, Exploration, SingularLoci, search
 from singsym.classes.realise import Counted, CurveTask, Names, RealTask, count, realise
 from singsym.classes.result import Classification, ClassResult, Locus, Piece, SpacePiece
 from singsym.classes.steps import excluded_in, found_in
@@ -147,15 +147,17 @@ class _Work:
             time.monotonic() - started,
         )
 
-    def _singular_loci(self) -> tuple[Loci, Loci] | None:
-        """The zero sets of (4) and (5) in readable factors, where they are known and not everything."""
+    def _singular_loci(self) -> SingularLoci | None:
+        """The alternatives of (4), (5), (iii) and (vi), where they are known and not everything."""
         found = []
-        for label in ("4", "5"):
+        for label in ("4", "5", "iii", "vi"):
             condition = self.conditions[label]
-            if condition.alternatives is None or condition.everywhere:
-                return None
-            found.append(condition.polynomials)
-        return (found[0], found[1])
+            known = condition.alternatives is not None and not condition.everywhere
+            found.append(condition.polynomials if known else None)
+        inputs, outputs, passive, mobility = found
+        if inputs is None or outputs is None:
+            return None
+        return SingularLoci(inputs, outputs, passive, mobility)
 
     # -- loci ----------------------------------------------------------------------------------------
 

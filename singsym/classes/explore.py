@@ -124,22 +124,35 @@ def numerical_points(ideal: Ideal, count: int = 3) -> tuple[tuple[float, ...], .
     return tuple(found)
 
 
-Loci = Sequence[Equations]
+Loci = tuple[Equations, ...]
 """A closed set as a union: of each tuple, all polynomials vanish."""
 
 
-def search(root: Branch, runner: Runner, singular: tuple[Loci, Loci] | None = None) -> Exploration:
+@dataclass(frozen=True)
+class SingularLoci:
+    """Where the four matrices lose rank, by the alternatives of conditions (4), (5), (iii) and (vi).
+
+    passive, mobility: None where the condition is left as a comparison of ranks.
+    """
+
+    inputs: Loci
+    outputs: Loci
+    passive: Loci | None = None
+    mobility: Loci | None = None
+
+
+def search(root: Branch, runner: Runner, singular: SingularLoci | None = None) -> Exploration:
     """All strata of a branch, level by level; every level's branches are independent tasks.
 
-    singular: the loci of (4) and (5) where they are known: then the strata with k_I = 0 or k_O = 0 are
-        written down at once (conditions (vii), (viii)), and only the intersections are searched.
+    singular: where known, the strata that need no search are written down at once, as steps (4)-(6) of the
+        paper do, and only {1} and {2} are searched, or where these are not known, (4) and (5) together.
     The result does not depend on the runner's executor: branches keep their order.
     """
     found: dict[Equations, Found] = {}
     frontier: Sequence[Branch] = (root,)
     if singular is not None:
-        found = {part.stratum.equations: part for part in _simple_strata(root, *singular)}
-        frontier = _intersections(root, *singular)
+        found = {part.stratum.equations: part for part in _evident_strata(root, singular)}
+        frontier = [replace(root, path=path) for path in _to_search(singular)]
     unexplored: list[tuple[Branch, str]] = []
     visited = {frozenset(branch.path) for branch in frontier}
     level = 0
@@ -159,33 +172,46 @@ def search(root: Branch, runner: Runner, singular: tuple[Loci, Loci] | None = No
     return Exploration(tuple(found.values()), tuple(unexplored))
 
 
-def _simple_strata(root: Branch, inputs: Loci, outputs: Loci) -> Iterator[Found]:
-    """The regular configurations, and the zeros of (4) without (5) and of (5) without (4).
+def _evident_strata(root: Branch, singular: SingularLoci) -> Iterator[Found]:
+    """The regular configurations, and the classes without IIM and RPM.
 
-    With k_O = 0 there is neither IIM nor RPM, and the class is (RO, II); dually.
+    With k_O = 0 there is neither IIM nor RPM, and the class is (RO, II) by (vii); dually (RI, IO) by (viii).
+    Where both (4) and (5) hold, but neither (iii) nor (vi), it is (RI, RO, IO, II).
     """
-    yield Found(
-        (), Stratum(root.equations, Defects(0, 0, 0, 0), {"L_I": tuple(inputs), "L_O": tuple(outputs)})
-    )
-    cases = ((inputs, outputs, "L_O", Defects(0, 0, 1, 0)), (outputs, inputs, "L_I", Defects(0, 0, 0, 1)))
-    for own, other, name, defects in cases:
+    inputs, outputs = singular.inputs, singular.outputs
+    regular = Stratum(root.equations, Defects(0, 0, 0, 0), {"L_I": inputs, "L_O": outputs})
+    yield Found((), regular)
+    for own, other, name, defects in (
+        (inputs, outputs, "L_O", Defects(0, 0, 1, 0)),
+        (outputs, inputs, "L_I", Defects(0, 0, 0, 1)),
+    ):
         for path in own:
             if path not in other:
-                yield Found(path, Stratum((*root.equations, *path), defects, {name: tuple(other)}))
+                yield Found(path, Stratum((*root.equations, *path), defects, {name: other}))
+    if singular.passive is None or singular.mobility is None:
+        return
+    taken_out = {"L": singular.mobility, "L_p": singular.passive}
+    for path in _intersections(inputs, outputs):
+        if not any(set(locus) <= set(path) for locus in (*singular.passive, *singular.mobility)):
+            yield Found(path, Stratum((*root.equations, *path), Defects(0, 0, 1, 1), taken_out))
 
 
-def _intersections(root: Branch, inputs: Loci, outputs: Loci) -> list[Branch]:
-    """The parts of the zeros of (4) and (5) that together hold all configurations with k_I and k_O > 0."""
-    common = [path for path in inputs if path in outputs]
-    paths = [frozenset(path) for path in common]
-    ordered = list(common)
-    for one in inputs:
-        for two in outputs:
-            path = tuple(dict.fromkeys((*one, *two)))
-            if not any(known <= frozenset(path) for known in paths):
-                paths.append(frozenset(path))
-                ordered.append(path)
-    return [replace(root, path=path) for path in ordered]
+def _to_search(singular: SingularLoci) -> list[Equations]:
+    """Closed sets that together hold all configurations of type IIM or RPM."""
+    if singular.passive is None or singular.mobility is None:
+        return _intersections(singular.inputs, singular.outputs)
+    return list(dict.fromkeys((*singular.passive, *singular.mobility)))
+
+
+def _intersections(one: Loci, two: Loci) -> list[Equations]:
+    """The common zeros of two unions of loci as a union, without those that lie in others by their paths."""
+    paths = [path for path in one if path in two]
+    for first in one:
+        for second in two:
+            path = tuple(dict.fromkeys((*first, *second)))
+            if not any(set(known) <= set(path) for known in paths):
+                paths.append(path)
+    return paths
 
 
 def _covered(branch: Branch, part: Stratum) -> bool:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from math import prod
 from typing import TYPE_CHECKING
 
 from singsym.elimination.budget import Budget, BudgetExceeded, Undecided, current
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
 # denominators tried for the frozen coordinates, nice values first
 _DENOMINATORS = (1, 2, 8, 64)
 _SOLVE_SECONDS = 10.0
+# up to this many solutions by Bezout's bound a point is solved for exactly before a box is tried
+_FEW_SOLUTIONS = 64
 
 
 @dataclass(frozen=True)
@@ -217,8 +220,12 @@ def _certified(
     sample: Vector,
     budget: Budget,
 ) -> RealPoint | BoxPoint | None:
-    """An exact point with the frozen values, nearest to the sample; else a box for a square system."""
+    """An exact point with the frozen values, nearest to the sample; a box for a large square system."""
     ring = system.ring
+    if _bezout(equations, values) > _FEW_SOLUTIONS:
+        box = _certified_box(system, equations, values, sample)
+        if box is not None:
+            return box
     try:
         points = frozen_points(ring, equations, values, budget.part(_SOLVE_SECONDS))
     except NotZeroDimensional:
@@ -228,6 +235,10 @@ def _certified(
         return _certified_box(system, equations, values, sample)
     order = sorted(points, key=lambda p: sum((a - b) ** 2 for a, b in zip(p.floats, sample, strict=True)))
     return next((p for p in order if system.admits(p)), None)
+
+
+def _bezout(equations: Sequence[Polynomial], values: dict[str, Fraction]) -> int:
+    return prod(max(1, f.substitute(dict(values)).total_degree) for f in equations)
 
 
 def _certified_box(
