@@ -66,8 +66,7 @@ def run_classify(chosen: argparse.Namespace) -> int:
 
     mechanism = read(chosen)
     placed(mechanism, chosen.formulation)
-    if chosen.cache:
-        chosen.on_interrupt = "; finished parts are kept: the same command goes on from there"
+    _resumable(chosen)
     with engines.use(*chosen.engines), progress_shown():
         result = classify(
             mechanism,
@@ -88,6 +87,46 @@ def run_classify(chosen: argparse.Namespace) -> int:
 
         emit_page(classification_page(result))
     return UNDECIDED if result.undecided else 0
+
+
+def run_solve(chosen: argparse.Namespace) -> int:
+    """`singsym solve MECHANISM CONDITION ...`."""
+    from singsym.classes.classify import Limits
+    from singsym.classes.solve import solve
+    from singsym.cli.screen import progress_shown
+    from singsym.elimination import engines
+
+    mechanism = read(chosen)
+    placed(mechanism, chosen.formulation)
+    _resumable(chosen)
+    with engines.use(*chosen.engines), progress_shown():
+        found = solve(
+            mechanism,
+            *dict.fromkeys(chosen.labels),
+            formulation=chosen.formulation,
+            workers=chosen.workers,
+            limits=Limits(seconds=chosen.budget),
+            cache=chosen.cache,
+        )
+    if chosen.format == "json":
+        from singsym.output.data import solution_data
+
+        emit_data(solution_data(mechanism.name, found))
+    elif chosen.format == "latex":
+        from singsym.output.latex import document, solution_latex
+
+        body = solution_latex(found)
+        print(document(body, mechanism.title or mechanism.name) if chosen.standalone else body)
+    else:
+        from singsym.output.text import solution_page
+
+        emit_page(solution_page(mechanism.name, found))
+    return UNDECIDED if any(s.undecided for s in found) else 0
+
+
+def _resumable(chosen: argparse.Namespace) -> None:
+    if chosen.cache:
+        chosen.on_interrupt = "; finished parts are kept: the same command goes on from there"
 
 
 def run_at(chosen: argparse.Namespace) -> int:

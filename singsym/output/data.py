@@ -5,10 +5,12 @@ Source: singsym's own; polynomials are text in the ring's variables.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from singsym.classes.at import Analysis
+    from singsym.classes.solve import Solution
     from singsym.classes.types import Table
     from singsym.elimination.conditions import Condition, Conditions
     from singsym.kinematics.mobility import Mobility
@@ -128,6 +130,36 @@ def mobility_data(name: str, equation: VelocityEquation, found: Mobility) -> dic
         "samples": found.samples,
         "regular": found.regular,
         "problems": list(found.messages),
+    }
+
+
+def solution_data(name: str, solutions: Iterable[Solution]) -> dict[str, Any]:
+    """The solution sets of conditions."""
+    return {
+        "mechanism": name,
+        "solutions": [
+            {
+                "condition": s.condition.label,
+                "statement": s.condition.statement,
+                "verdict": str(s.verdict.answer),
+                "dimension": s.dimension,
+                "pieces": [
+                    {
+                        "equations": [str(p) for p in piece.path],
+                        "basis": [str(p) for p in piece.basis],
+                        "exclusions": [[str(p) for p in group] for group in piece.exclusions],
+                        "verdict": str(piece.verdict.answer),
+                        "certainty": str(piece.verdict.certainty),
+                        "dimension": piece.dimension,
+                        "points": piece.points,
+                        "witnesses": [w.as_json() for w in piece.witnesses],
+                    }
+                    for piece in s.pieces
+                ],
+                "undecided": list(s.doubts),
+            }
+            for s in solutions
+        ],
     }
 
 

@@ -14,14 +14,15 @@ from singsym.elimination.conditions import polynomial_latex, symbol_latex
 
 if TYPE_CHECKING:
     from singsym.classes.result import Classification, ClassResult, Locus
+    from singsym.classes.solve import Solution
     from singsym.classes.types import Table
     from singsym.elimination.conditions import Condition, Conditions, Factor
     from singsym.kinematics.velocity import Column, VelocityEquation
     from singsym.mechanism.model import Mechanism
     from singsym.polynomials import Polynomial, PolynomialMatrix
 
-LONG_ENTRY = 4
-"""An entry of a matrix with more terms gets a name, and is printed below the matrix."""
+WIDEST = 30
+"""A matrix as wide as this many terms side by side fills the line; entries that do not fit get a name."""
 
 _PREAMBLE = r"""\documentclass[a4paper,10pt]{article}
 \usepackage[T1]{fontenc}
@@ -35,6 +36,7 @@ _PREAMBLE = r"""\documentclass[a4paper,10pt]{article}
 \relpenalty=50 \binoppenalty=100 \emergencystretch=3em
 \setlength{\parindent}{0pt} \setlength{\parskip}{3pt plus 1pt}
 \raggedright
+\makeatletter\def\@listi{\leftmargin\leftmargini \topsep2pt \parsep0pt \itemsep1pt}\makeatother
 """
 
 _SPECIAL = str.maketrans(
@@ -61,13 +63,14 @@ def escaped(text: str) -> str:
     >>> print(escaped("50 % of A_1 & B"))
     50 \\% of A\\_1 \\& B
     """
-    return "".join(c if c.isprintable() and ord(c) < 0x180 else "?" for c in text).translate(_SPECIAL)
+    kept = "".join(c if c.isprintable() and ord(c) < 0x180 else "?" for c in " ".join(text.split()))
+    return kept.translate(_SPECIAL)
 
 
 def document(body: str, title: str) -> str:
     """A whole document around the LaTeX of a result."""
-    head = f"{_PREAMBLE}\\title{{{escaped(title)}}}\\author{{}}\\date{{}}\n"
-    return f"{head}\\begin{{document}}\n\\maketitle\n{_without_fit(body)}\n\\end{{document}}"
+    head = f"{{\\LARGE\\bfseries {escaped(title)}\\par}}\\bigskip"
+    return f"{_PREAMBLE}\\begin{{document}}\n{head}\n\n{_without_fit(body)}\n\\end{{document}}"
 
 
 def _without_fit(body: str) -> str:
@@ -128,12 +131,13 @@ def matrix_latex(name: str, matrix: PolynomialMatrix, columns: Sequence[Column])
     >>> print(matrix_latex("L", equation.L, equation.columns)[0].splitlines()[2])
      & \\mathrm{T.D} & \\underline{\\mathrm{A}} & \\mathrm{B} & \\mathrm{C} & \\mathrm{D} \\\\
     """
+    limit = _longest_entry(matrix)
     named: list[str] = []
 
     def cell(i: int, j: int, entry: Polynomial) -> str:
         if not entry:
             return r"\cdot"
-        if len(entry) <= LONG_ENTRY:
+        if len(entry) <= limit:
             return polynomial_latex(entry)
         symbol = rf"\ell_{{{i + 1},{j + 1}}}"
         named.append(f"${symbol} = {polynomial_latex(entry)}$")
@@ -147,7 +151,19 @@ def matrix_latex(name: str, matrix: PolynomialMatrix, columns: Sequence[Column])
         f"\\[\\begin{{array}}{{r|{'c' * matrix.width}}}\n"
         f"{name}\n & {' & '.join(heads)} \\\\\n\\hline\n{body}\n\\end{{array}}\\]"
     )
-    return [array, *named]
+    return [array, *(["with " + ",\n".join(named) + "."] if named else [])]
+
+
+def _longest_entry(matrix: PolynomialMatrix) -> int:
+    """How many terms an entry may have so that the matrix fits the line: at least one."""
+
+    def width(limit: int) -> int:
+        columns = zip(*matrix.rows, strict=True)
+        return sum(
+            max((len(e) * max(1, e.total_degree) for e in c if len(e) <= limit), default=1) for c in columns
+        )
+
+    return next((limit for limit in (6, 4, 3, 2) if width(limit) <= WIDEST), 1)
 
 
 # -- conditions --------------------------------------------------------------------------------------
@@ -301,3 +317,25 @@ def _equations(path: Sequence[Polynomial]) -> str:
 def _configuration(values: Mapping[str, str]) -> str:
     pairs = [(symbol_latex(name.replace(".", "")), float(value)) for name, value in values.items()]
     return ", ".join(f"${name} = {value:.6f}$" for name, value in pairs)
+
+
+def solution_latex(solutions: Iterable[Solution]) -> str:
+    """The solution sets of conditions: equations, dimensions, counts and a configuration of each piece."""
+    parts = []
+    for solution in solutions:
+        head = rf"\section*{{Condition ({solution.condition.label})}}"
+        parts += [head, f"${solution.condition.latex_statement}$ ({solution.condition.types})."]
+        items = []
+        for piece in solution.pieces:
+            counts = f", {piece.points} points" if piece.points is not None else ""
+            shown = [
+                f" For instance {_configuration(w.points or w.coordinates)}." for w in piece.witnesses[:1]
+            ]
+            where = _equations(piece.path)
+            items.append(rf"\item ${where}$, dimension {_count(piece.dimension)}{counts}." + "".join(shown))
+        if items:
+            parts.append("\\begin{itemize}\n" + "\n".join(items) + "\n\\end{itemize}")
+        elif not solution.undecided:
+            parts.append("No feasible configuration.")
+        parts += [f"Undecided: {escaped(doubt)}." for doubt in solution.doubts]
+    return "\n\n".join(parts)

@@ -5,7 +5,7 @@ Source: the layouts of Tables 1 and 2 of Zlatanov, Fenton, Benhabib (1998).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from singsym.output.page import Block, Grid, Page
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from singsym.classes.at import Analysis
     from singsym.classes.motions import Motion
     from singsym.classes.result import Classification, ClassResult, Configuration, Locus, SpacePiece
+    from singsym.classes.solve import Solution
     from singsym.classes.types import Table
     from singsym.elimination.conditions import Condition, Conditions
     from singsym.elimination.engines.registry import EngineStatus
@@ -267,13 +268,64 @@ def _class_text(result: ClassResult) -> str:
 
 def configuration_text(found: Configuration, digits: int = 7) -> str:
     """A certified configuration on one line: named points, else the variables; joint values after them."""
-
-    def shorter(values: Iterable[tuple[str, str]]) -> str:
-        return ", ".join(f"{name} = {float(value):.{digits}g}" for name, value in values)
-
-    named = shorter(found.points.items()) or shorter(found.coordinates.items())
-    joints = shorter(found.joints.items())
+    named = points_text(found.points, digits) or values_text(found.coordinates, digits)
+    joints = values_text(found.joints, digits)
     return f"{named}; {joints}" if joints else named
+
+
+def points_text(points: Mapping[str, str | float], digits: int = 7) -> str:
+    """Points from their coordinates by name, as `B.x`.
+
+    >>> points_text({"B.x": "0.25", "B.y": "1e-40"})
+    'B = (0.25, 0)'
+    """
+    places: dict[str, list[str]] = {}
+    for name, value in points.items():
+        places.setdefault(name.rpartition(".")[0], []).append(_number(value, digits))
+    return ", ".join(f"{name} = ({', '.join(place)})" for name, place in places.items())
+
+
+def values_text(values: Mapping[str, str | float], digits: int = 7) -> str:
+    """Names with their values."""
+    return ", ".join(f"{name} = {_number(value, digits)}" for name, value in values.items())
+
+
+def _number(value: str | float, digits: int) -> str:
+    """A number for reading; what is zero but for rounding is 0."""
+    number = float(value)
+    return "0" if abs(number) < 1e-14 else f"{number:.{digits}g}"
+
+
+def solution_page(name: str, solutions: Iterable[Solution]) -> Page:
+    """The solution sets of conditions, piece by piece."""
+    blocks: list[Block] = [name]
+    for solution in solutions:
+        condition = solution.condition
+        head = f"({condition.label}) {condition.statement}: {condition.types}"
+        rows = tuple(
+            (
+                str(number),
+                ", ".join(f"{polynomial_text(p, 6)} = 0" for p in piece.path) or "everywhere",
+                _dimension(piece.dimension),
+                _count(piece.points),
+                "?" if piece.verdict.is_undecided else str(piece.verdict.certainty),
+            )
+            for number, piece in enumerate(solution.pieces, 1)
+        )
+        shown = [
+            f"  {number}: for instance {configuration_text(piece.witnesses[0])}"
+            for number, piece in enumerate(solution.pieces, 1)
+            if piece.witnesses
+        ]
+        if rows:
+            headers = ("", "where", "dimension", "points", "known by")
+            blocks.append(Grid(headers, rows, head))
+            if shown:
+                blocks.append("\n".join(shown))
+        else:
+            blocks.append(f"{head}\n  {solution.verdict}")
+        blocks += [f"Undecided: {doubt}" for doubt in solution.doubts]
+    return tuple(blocks)
 
 
 # -- one configuration -------------------------------------------------------------------------------
@@ -283,10 +335,9 @@ def analysis_page(name: str, found: Analysis) -> Page:
     """Ranks, defects, types, class and null motions of one configuration."""
     N, n = found.equation.N, found.equation.n
     head = f"{name}: N = {N}, n = {n}"
-    places = [f"{p} = ({', '.join(f'{x:.7g}' for x in xs)})" for p, xs in found.points.items()]
-    joints = [f"{j} = {v:.7g}" for j, v in found.joints.items()]
-    values = [f"{v} = {x:.7g}" for v, x in found.values.items()]
-    where = "\n".join(", ".join(line) for line in (places or values, joints) if line)
+    points = {f"{p}.{axis}": x for p, xs in found.points.items() for axis, x in zip("xyz", xs, strict=False)}
+    places = points_text(points) or values_text(found.values)
+    where = "\n".join(filter(None, (places, values_text(found.joints))))
     ranks = tuple(
         (name, str(m.rank), str(m.full), f"{m.distance:.2e}", "" if m.gap == float("inf") else f"{m.gap:.1e}")
         for name, m in found.matrices.items()

@@ -1,0 +1,271 @@
+"""The solution set of one of the conditions (4), (5), (i)-(viii) on the feasible configurations.
+
+Source: Zlatanov, Fenton, Benhabib (1998), the propositions of section 2.3: (iii), (vi), (4), (5), (vii),
+(viii) are closed; (i), (ii), (iv), (v) compare ranks, and their sets are unions of classes.
+"""
+
+from __future__ import annotations
+
+from concurrent.futures import Executor
+from contextlib import ExitStack
+from dataclasses import dataclass, replace
+
+from singsym.classes.classify import Limits, classify_equation
+from singsym.classes.realise import Names, configuration
+from singsym.classes.result import Classification, Configuration, Equations, Piece
+from singsym.classes.types import SingularityType
+from singsym.classes.work import Cache, Runner, cache_folder, processes
+from singsym.elimination.budget import Budget, Undecided
+from singsym.elimination.conditions import Condition, Conditions, conditions
+from singsym.elimination.ideal import Ideal
+from singsym.elimination.verdict import Verdict
+from singsym.kinematics.velocity import VelocityEquation, velocity_equation
+from singsym.mechanism.model import Mechanism
+from singsym.varieties.cells import Cell
+from singsym.varieties.constructible import ConstructibleSet
+from singsym.varieties.decomposition import Component, decompose
+from singsym.varieties.real.dimension import component_dimension
+from singsym.varieties.real.points import RealPoint
+from singsym.varieties.real.witness import RealSystem
+from singsym.varieties.real.zerodim import real_points
+
+_T = SingularityType
+HOLDS = {
+    "4": _T.RO | _T.RPM,
+    "5": _T.RI | _T.RPM,
+    "i": _T.RI,
+    "ii": _T.RO,
+    "iii": _T.RPM,
+    "iv": _T.II,
+    "v": _T.IO,
+    "vi": _T.IIM,
+    "vii": _T.RO | _T.RPM,
+    "viii": _T.RI | _T.RPM,
+}
+"""A condition holds where a configuration has one of these types: k_I > 0 is RO or RPM, k_O > 0 RI or RPM."""
+
+
+@dataclass(frozen=True)
+class SolutionPiece:
+    """A part of a solution set: the zeros of `basis` off those of the exclusions.
+
+    path: what the condition sets to zero there; complex_dimension: of the ideal, None where not computed;
+    points: of a finite piece.
+    """
+
+    path: Equations
+    basis: Equations
+    exclusions: tuple[Equations, ...]
+    verdict: Verdict
+    complex_dimension: int | None = None
+    dimension: int | None = None
+    points: int | None = None
+    witnesses: tuple[Configuration, ...] = ()
+
+
+@dataclass(frozen=True)
+class Solution:
+    """The solution set of a condition, piece by piece, with what is undecided."""
+
+    condition: Condition
+    equation: VelocityEquation
+    pieces: tuple[SolutionPiece, ...]
+    doubts: tuple[str, ...] = ()
+
+    @property
+    def verdict(self) -> Verdict:
+        """Whether there is a feasible configuration that satisfies the condition."""
+        for piece in self.pieces:
+            if piece.verdict.is_yes:
+                return piece.verdict
+        if self.undecided:
+            return Verdict.undecided("; ".join(self.doubts))
+        return Verdict.no(reason="no feasible configuration satisfies the condition")
+
+    @property
+    def undecided(self) -> bool:
+        """Whether pieces may be missing or are not known to have real points."""
+        return bool(self.doubts)
+
+    @property
+    def dimension(self) -> int:
+        """The largest real dimension known; -1 where there is no piece."""
+        return max((p.dimension for p in self.pieces if p.dimension is not None), default=-1)
+
+    @property
+    def set(self) -> ConstructibleSet:
+        """The solution set as a set, with `&`, `|` and `-`.
+
+        Where it is undecided the set of what was found.
+        """
+        space = self.equation.space
+        cells = tuple(
+            Cell(
+                Ideal(space.ring, p.basis),
+                (*space.exclusions, *p.exclusions),
+                space.positive,
+                space.nonnegative,
+            )
+            for p in self.pieces
+        )
+        return ConstructibleSet(space.ring, cells)
+
+
+@dataclass(frozen=True)
+class LocusTask:
+    """A closed part of a solution set to be decomposed: the zeros of `path` on the configuration space."""
+
+    path: Equations
+    equations: Equations
+    feasible: RealSystem
+    names: Names
+    seconds: float | None = None
+    memory_mb: int | None = None
+
+
+@dataclass(frozen=True)
+class Solved:
+    """The pieces of a closed part, and why there may be more."""
+
+    pieces: tuple[SolutionPiece, ...] = ()
+    doubt: str = ""
+
+    @property
+    def provisional(self) -> bool:
+        """Whether a larger budget could say more."""
+        return bool(self.doubt)
+
+
+def solve(
+    mechanism: Mechanism,
+    *labels: str,
+    formulation: str = "auto",
+    workers: int = 1,
+    executor: Executor | None = None,
+    limits: Limits | None = None,
+    cache: bool = True,
+) -> tuple[Solution, ...]:
+    """The solution sets of conditions "4", "5", "i" ... "viii", one each; options as for `classify`.
+
+    Raises `KeyError` for another label.
+
+    >>> from singsym.mechanism import load
+    >>> dead, = solve(load("slider-crank"), "5", cache=False)
+    >>> dead.dimension, sum(p.points for p in dead.pieces)
+    (0, 2)
+    """
+    return solve_equation(
+        velocity_equation(mechanism, formulation),
+        *labels,
+        workers=workers,
+        executor=executor,
+        limits=limits,
+        cache=cache,
+        mechanism=mechanism,
+    )
+
+
+def solve_equation(
+    equation: VelocityEquation,
+    *labels: str,
+    workers: int = 1,
+    executor: Executor | None = None,
+    limits: Limits | None = None,
+    cache: bool = True,
+    mechanism: Mechanism | None = None,
+) -> tuple[Solution, ...]:
+    """The same for a velocity equation, such as one of the user's own."""
+    found = conditions(equation)
+    asked = [found[label] for label in labels]
+    limits = limits or Limits()
+    with ExitStack() as stack:
+        if executor is None:
+            executor = processes(workers)
+            if executor is not None:
+                stack.enter_context(executor)
+        runner = Runner(executor, Cache(cache_folder()) if cache else None)
+        whole: Classification | None = None
+        results = []
+        for condition in asked:
+            if condition.alternatives is None or condition.everywhere:
+                whole = whole or classify_equation(
+                    mechanism, equation, executor=executor, limits=limits, cache=cache
+                )
+                results.append(_from_classes(condition, whole))
+            else:
+                results.append(_closed(condition, found, runner, limits))
+        return tuple(results)
+
+
+def _closed(condition: Condition, found: Conditions, runner: Runner, limits: Limits) -> Solution:
+    """The solution set of a condition that says which polynomials vanish."""
+    space = found.equation.space
+    feasible = RealSystem(space.ring, (), space.exclusions, space.positive, space.nonnegative)
+    names = Names(space.points, found.equation.values)
+    tasks = [
+        LocusTask(path, space.equations, feasible, names, limits.seconds, limits.memory_mb)
+        for path in condition.polynomials
+    ]
+    solved = runner.map(solve_locus, tasks, f"condition ({condition.label})")
+    pieces = [p for part in solved for p in part.pieces if not p.verdict.is_no]
+    doubts = [part.doubt for part in solved if part.doubt]
+    doubts += [p.verdict.reason for p in pieces if p.verdict.is_undecided]
+    return Solution(condition, found.equation, tuple(pieces), tuple(dict.fromkeys(doubts)))
+
+
+def solve_locus(task: LocusTask) -> Solved:
+    """Decompose a closed part and find real points on each component: the task that workers run."""
+    feasible = task.feasible
+    nonzero = [*(e[0] for e in feasible.exclusions if len(e) == 1), *feasible.positive]
+    try:
+        with Budget(task.seconds, task.memory_mb):
+            components = decompose((*task.path, *task.equations), nonzero, ring=feasible.ring)
+            kept = [
+                c for c in components if not any(all(map(c.vanishes, group)) for group in feasible.exclusions)
+            ]
+            return Solved(tuple(_real(task, component) for component in kept))
+    except Undecided as reason:
+        return Solved((), str(reason))
+
+
+def _real(task: LocusTask, component: Component) -> SolutionPiece:
+    system = replace(task.feasible, equations=component.generators)
+    piece = SolutionPiece(
+        task.path, component.generators, (), Verdict.undecided("not examined"), component.dimension
+    )
+    try:
+        if component.dimension == 0:
+            points = [p for p in real_points(component.generators) if system.admits(p)]
+            if not points:
+                return replace(piece, verdict=Verdict.no(reason="no real and feasible point"), dimension=-1)
+            shown = tuple(configuration(p, task.names) for p in points)
+            return replace(piece, verdict=Verdict.yes(), dimension=0, points=len(points), witnesses=shown)
+        dimension, witness = component_dimension(component, system)
+    except Undecided as reason:
+        return replace(piece, verdict=Verdict.undecided(str(reason)))
+    if witness is None:
+        return replace(piece, verdict=Verdict.no(reason="no real and feasible point"), dimension=-1)
+    verdict = Verdict.yes("proven" if isinstance(witness.point, RealPoint) else "certified")
+    shown = (configuration(witness.point, task.names),)
+    return replace(piece, verdict=verdict, dimension=dimension, witnesses=shown)
+
+
+def _from_classes(condition: Condition, whole: Classification) -> Solution:
+    """The union of the classes whose configurations satisfy the condition."""
+    wanted = [c for c in whole.classes if c.types & HOLDS[condition.label]]
+    doubts = [c.verdict.reason for c in wanted if c.verdict.is_undecided]
+    pieces = sorted((p for c in wanted for p in c.pieces), key=lambda p: (-(p.dimension or 0), str(p.path)))
+    return Solution(condition, whole.equation, tuple(map(_as_solution, pieces)), tuple(dict.fromkeys(doubts)))
+
+
+def _as_solution(piece: Piece) -> SolutionPiece:
+    return SolutionPiece(
+        piece.path,
+        piece.basis,
+        piece.exclusions,
+        piece.verdict,
+        None,
+        piece.dimension,
+        piece.points,
+        piece.witnesses,
+    )
