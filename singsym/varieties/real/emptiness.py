@@ -15,6 +15,7 @@ from singsym.elimination.budget import Budget, Undecided, current
 from singsym.elimination.verdict import Verdict
 from singsym.polynomials import Polynomial
 from singsym.varieties.decomposition import Component, decompose
+from singsym.varieties.real.bounds import sign_within, solution_bounds
 from singsym.varieties.real.critical import component_samples, sample_points
 from singsym.varieties.real.points import RealPoint, has_real_root
 from singsym.varieties.real.squares import sum_of_squares
@@ -52,6 +53,10 @@ def _decided(system: RealSystem, budget: Budget, seed: int, tries: int) -> Verdi
     forced = _real_consequences(system, equations)
     if forced is None:
         return Verdict.yes(reason="a sum of squares with a positive constant is zero")
+    if _out_of_bounds(system, equations):
+        return Verdict.yes(
+            reason="sums of squares bound the variables, and a condition fails within the bounds"
+        )
     nonzero = [*system.positive, *(g[0] for g in system.exclusions if len(g) == 1)]
     components = decompose([*equations, *forced], nonzero, ring=system.ring, budget=budget)
     components = tuple(c for c in components if not _excluded(c, system))
@@ -89,8 +94,8 @@ def _component_verdict(
         return _from_points(real_points(component.ideal, budget), piece, "finitely many complex solutions")
     if _no_real_coordinate(component):
         return Verdict.yes(reason="a polynomial in one variable has no real root")
-    if _contradiction(component, system):
-        return Verdict.yes(reason="an inequality contradicts a sum of squares")
+    if _contradiction(component, system) or _out_of_bounds(system, (*equations, *component.generators)):
+        return Verdict.yes(reason="a condition contradicts sums of squares")
     forced = _real_consequences(piece, component.generators)
     if forced is None:
         return Verdict.yes(reason="a sum of squares with a positive constant is zero")
@@ -131,6 +136,13 @@ def _real_consequences(system: RealSystem, equations: Sequence[Polynomial]) -> l
         if len(roots) > 1:
             forced.extend(roots)
     return forced
+
+
+def _out_of_bounds(system: RealSystem, equations: Sequence[Polynomial]) -> bool:
+    bounds = solution_bounds(system.ring, equations)
+    if bounds is None or any(sign_within(f, bounds) for f in equations):
+        return True
+    return any(sign_within(p, bounds) < 0 for p in (*system.positive, *system.nonnegative))
 
 
 def _combinations(equations: Sequence[Polynomial]) -> Iterator[Polynomial]:
@@ -178,7 +190,7 @@ def _by_samples(
     if not points:
         return Verdict.yes(reason="no real point is nearest to a generic one")
     for p in points:
-        if system.admits(p):
+        if system.admits(p) and not any(p.sign(f) for f in system.equations):
             return Verdict.no(witness=Witness(p))
     if (
         points

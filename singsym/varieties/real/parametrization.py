@@ -34,7 +34,7 @@ class Parametrization:
     numerators: tuple[fmpz_poly, ...]
     certainty: Certainty = "proven"
 
-    def image(self, polynomial: Polynomial) -> fmpz_poly:
+    def image(self, polynomial: Polynomial, check: Check = lambda: None) -> fmpz_poly:
         """A multiple of `polynomial` at the points, by a power of the denominator and a nonzero integer."""
         terms = polynomial.integer().terms()
         degree = polynomial.total_degree
@@ -42,6 +42,7 @@ class Parametrization:
         bases = (*self.numerators, self.denominator)
         total = fmpz_poly([])
         for exponents, coefficient in terms:
+            check()
             term = fmpz_poly([coefficient])
             for i, e in enumerate((*exponents, degree - sum(exponents))):
                 while len(powers[i]) <= e:
@@ -51,7 +52,7 @@ class Parametrization:
             total = total + term
         return total
 
-    def vanishes(self, polynomial: Polynomial) -> bool:
+    def vanishes(self, polynomial: Polynomial, check: Check = lambda: None) -> bool:
         """Whether `polynomial` is zero at every root of `minimal`: an exact division.
 
         >>> t = fmpz_poly([-2, 0, 1])
@@ -59,7 +60,34 @@ class Parametrization:
         >>> Parametrization(R, t, fmpz_poly([1]), (fmpz_poly([0, 1]),)).vanishes(R.gens[0] ** 2 - 2)
         True
         """
-        return polynomial.is_zero or divides(self.minimal, self.image(polynomial))
+        return polynomial.is_zero or divides(self.minimal, self.image(polynomial, check))
+
+    def cost_of(self, polynomial: Polynomial) -> float:
+        """About how many bits of arithmetic `vanishes` takes."""
+        degree = polynomial.total_degree
+        sizes = (self.minimal, self.denominator, *self.numerators)
+        height = max(p.height_bits() for p in sizes)
+        return float(len(polynomial) * degree**3 * self.minimal.degree() * height)
+
+    def vanishes_modulo(self, polynomial: Polynomial, prime: int = _PRIME) -> bool | None:
+        """The same modulo a prime below 2^63; `False` proves that it does not vanish, `None` says nothing."""
+        minimal, below = nmod_poly(self.minimal, prime), nmod_poly(self.denominator, prime)
+        if minimal.degree() < self.minimal.degree() or minimal.gcd(below).degree() > 0:
+            return None
+        # at degree 0 there is no root, and all is zero there
+        inverse = below.xgcd(minimal)[1] if minimal.degree() > 0 else nmod_poly([], prime)
+        values = [nmod_poly(n, prime) * inverse % minimal for n in self.numerators]
+        powers: list[list[nmod_poly]] = [[nmod_poly([1], prime)] for _ in values]
+        total = nmod_poly([], prime)
+        for exponents, coefficient in polynomial.integer().terms():
+            term = nmod_poly([int(coefficient) % prime], prime)
+            for i, e in enumerate(exponents):
+                while len(powers[i]) <= e:
+                    powers[i].append(powers[i][-1] * values[i] % minimal)
+                if e:
+                    term = term * powers[i][e] % minimal
+            total = total + term
+        return not total % minimal
 
 
 def divides(divisor: fmpz_poly, dividend: fmpz_poly) -> bool:
@@ -165,7 +193,7 @@ def _reconstructed(
         if used >= trial:
             trial = used + max(1, used // 3)
             candidate = _candidate(algebra.ring, residues, modulus, count)
-            if candidate is not None and _proven(candidate, weights, equations):
+            if candidate is not None and _proven(candidate, weights, equations, check):
                 return candidate
             if candidate is not None and candidate == previous:
                 raise ArithmeticError("the quotient algebra does not belong to the equations: a wrong basis")
@@ -196,7 +224,9 @@ def _candidate(ring: Ring, residues: Sequence[int], modulus: int, count: int) ->
     return Parametrization(ring, minimal, parts[0], tuple(parts[1:]))
 
 
-def _proven(candidate: Parametrization, weights: Sequence[int], equations: Sequence[Polynomial]) -> bool:
+def _proven(
+    candidate: Parametrization, weights: Sequence[int], equations: Sequence[Polynomial], check: Check
+) -> bool:
     """Whether the equations hold at all roots and the linear form of the coordinates is the root itself."""
     minimal = candidate.minimal
     if minimal.degree() > 0 and minimal.gcd(minimal.derivative()).degree() > 0:
@@ -204,7 +234,7 @@ def _proven(candidate: Parametrization, weights: Sequence[int], equations: Seque
     form = fmpz_poly([0, 1]) * candidate.denominator * -1
     for w, n in zip(weights, candidate.numerators, strict=True):
         form = form + n * w
-    return divides(minimal, form) and all(candidate.vanishes(f) for f in equations)
+    return divides(minimal, form) and all(candidate.vanishes(f, check) for f in equations)
 
 
 def reconstruct(residues: Sequence[int], modulus: int) -> tuple[list[int], int] | None:

@@ -11,13 +11,11 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, cast
 
-from flint import acb, arb, fmpz_poly, nmod_poly
+from flint import acb, arb, fmpz_poly
 
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.real.intervals import at_precision, ball, evaluate, exact_bounds
 from singsym.varieties.real.parametrization import Parametrization
-
-_PRIME = 2**62 - 57
 
 
 @dataclass(frozen=True)
@@ -138,14 +136,8 @@ class RealPoint:
         """Whether it is zero here: then, `minimal` being irreducible, at all conjugates as well."""
         if polynomial.is_zero:
             return True
-        prime = _PRIME
-        minimal = nmod_poly(fmpz_poly(list(self.minimal)), prime)
-        denominator = nmod_poly(fmpz_poly(list(self.denominator)), prime)
-        if minimal.degree() == len(self.minimal) - 1 and minimal.gcd(denominator).degree() == 0:
-            inverse = denominator.xgcd(minimal)[1]
-            values = [nmod_poly(fmpz_poly(list(n)), prime) * inverse % minimal for n in self.numerators]
-            if _modular_value(polynomial, values, minimal):
-                return False
+        if self.parametrization.vanishes_modulo(polynomial) is False:
+            return False
         return self.parametrization.vanishes(polynomial)
 
     @property
@@ -229,21 +221,6 @@ def _pseudo_remainder(dividend: fmpz_poly, divisor: fmpz_poly) -> fmpz_poly:
         quotient = remainder.leading_coefficient() // lead
         remainder = remainder - divisor.left_shift(shift) * quotient
     return remainder
-
-
-def _modular_value(polynomial: Polynomial, values: Sequence[nmod_poly], minimal: nmod_poly) -> nmod_poly:
-    prime = int(minimal.modulus())
-    powers: list[list[nmod_poly]] = [[nmod_poly([1], prime)] for _ in values]
-    total = nmod_poly([], prime)
-    for exponents, coefficient in polynomial.integer().terms():
-        term = nmod_poly([int(coefficient) % prime], prime)
-        for i, e in enumerate(exponents):
-            while len(powers[i]) <= e:
-                powers[i].append(powers[i][-1] * values[i] % minimal)
-            if e:
-                term = term * powers[i][e] % minimal
-        total = total + term
-    return total
 
 
 # -- refinement --------------------------------------------------------------------------------------

@@ -24,16 +24,37 @@ def sum_of_squares(polynomial: Polynomial) -> tuple[int, tuple[Polynomial, ...]]
     >>> sum_of_squares(x**2 - y**2) is None
     True
     """
-    terms = {tuple(map(int, m)): c for m, c in polynomial.terms()}
-    if not terms:
+    if polynomial.is_constant and polynomial:
+        return (1 if polynomial.constant > 0 else -1), (polynomial.ring.one,)
+    found = squares_less_constant(polynomial)
+    if found is None or found[2] > 0:
         return None
-    even = {m for m in terms if not any(e % 2 for e in m)}
-    signs = {terms[m] > 0 for m in even}
+    sign, squares, less = found
+    roots = [root for _, root in squares]
+    return sign, tuple([*roots, polynomial.ring.one] if less < 0 else roots)
+
+
+def squares_less_constant(
+    polynomial: Polynomial,
+) -> tuple[int, tuple[tuple[fmpq, Polynomial], ...], fmpq] | None:
+    """Sign, pairs (d > 0, root) and r with polynomial = sign * (sum of d root^2 - r), or `None`.
+
+    >>> from singsym.polynomials import Ring
+    >>> x, y = Ring(("x", "y")).gens
+    >>> squares_less_constant(x**2 - 2 * x + 4 * y**2)
+    (1, ((1, x - 1), (4, y)), 1)
+    """
+    terms = {tuple(map(int, m)): c for m, c in polynomial.terms()}
+    one = (0,) * len(polynomial.ring.names)
+    if not set(terms) - {one}:
+        return None
+    even = {m for m in terms if not any(e % 2 for e in m)} | {one}
+    signs = {terms[m] > 0 for m in even if m != one}
     if len(signs) != 1:
         return None
     sign = 1 if signs.pop() else -1
     half = sorted((tuple(e // 2 for e in m) for m in even), reverse=True)
-    gram = {(h, h): sign * terms[tuple(2 * e for e in h)] for h in half}
+    gram = {(h, h): sign * terms.get(tuple(2 * e for e in h), fmpq(0)) for h in half}
     for m, c in terms.items():
         if m in even:
             continue
@@ -41,8 +62,11 @@ def sum_of_squares(polynomial: Polynomial) -> tuple[int, tuple[Polynomial, ...]]
         if pair is None:
             return None
         gram[pair] = sign * c / 2
-    roots = _decomposed(polynomial, half, gram)
-    return None if roots is None else (sign, roots)
+    squares = _decomposed(polynomial, half, gram)
+    if squares is None:
+        return None
+    kept = tuple(pair for pair in squares if not pair[1].is_constant)
+    return sign, kept, sum((-d for d, root in squares if root.is_constant), start=fmpq(0))
 
 
 def _pair(m: Monomial, half: list[Monomial]) -> tuple[Monomial, Monomial] | None:
@@ -56,8 +80,8 @@ def _pair(m: Monomial, half: list[Monomial]) -> tuple[Monomial, Monomial] | None
 
 def _decomposed(
     polynomial: Polynomial, half: list[Monomial], gram: dict[tuple[Monomial, Monomial], fmpq]
-) -> tuple[Polynomial, ...] | None:
-    """The rows of L in Gram = L D L^T with D >= 0, as polynomials; `None` where it is not semidefinite."""
+) -> list[tuple[fmpq, Polynomial]] | None:
+    """D and the rows of L^T in Gram = L D L^T; `None` where D < 0 elsewhere than at the constant."""
     size = len(half)
     matrix = [[fmpq(0)] * size for _ in range(size)]
     for i, a in enumerate(half):
@@ -67,13 +91,14 @@ def _decomposed(
     for k in range(size):
         pivot = matrix[k][k]
         row = matrix[k][:]
-        if pivot < 0 or (pivot == 0 and any(row[k:])):
+        if (pivot < 0 and k < size - 1) or (pivot == 0 and any(row[k:])):
             return None
         if pivot == 0:
             continue
-        roots.append(polynomial.ring.from_dict({half[j]: row[j] / pivot for j in range(k, size) if row[j]}))
+        root = polynomial.ring.from_dict({half[j]: row[j] / pivot for j in range(k, size) if row[j]})
+        roots.append((pivot, root))
         for i in range(k + 1, size):
             factor = row[i] / pivot
             for j in range(k + 1, size):
                 matrix[i][j] -= factor * row[j]
-    return tuple(roots)
+    return roots

@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import replace
+from itertools import islice
 from math import lcm
 from typing import Any
 
@@ -26,7 +27,7 @@ from singsym.elimination.memo import is_known, remember
 from singsym.elimination.verdict import Certainty
 from singsym.polynomials import AlgebraicConstant, Polynomial, Ring
 from singsym.varieties.real.macaulay import quotient_algebra_over
-from singsym.varieties.real.parametrization import Parametrization, divides, parametrize
+from singsym.varieties.real.parametrization import Parametrization, divides, parametrize, primes
 from singsym.varieties.real.points import RealPoint, real_points_of
 from singsym.varieties.real.quotient import (
     Algebra,
@@ -41,6 +42,9 @@ __all__ = ["NotZeroDimensional", "certainties", "pinned", "real_points", "solve"
 
 # (polynomials, terms of each, bits of a coefficient) up to which FLINT computes a basis in this process
 _CAPS = (150, 500, 1500)
+
+# bits of arithmetic, some seconds, above which a "modular" answer is checked modulo primes only
+_EXACT_COST = 2e9
 
 _seen: ContextVar[list[Certainty] | None] = ContextVar("certainties", default=None)
 
@@ -72,7 +76,8 @@ def solve(equations: Sequence[Polynomial], budget: Budget | None = None) -> Para
 
     FLINT's basis first where it takes milliseconds, then msolve's parametrisation where it is there, then the
     easy equations' basis with the hard ones by linear algebra, then any engine's basis.  Every point is
-    proven by substitution; that none is missing is proven too where `certainty` is "proven".
+    proven by substitution, modulo primes where that is too dear and `certainty` is "modular" anyway; that
+    none is missing is proven where `certainty` is "proven".
     """
     budget = current(budget)
     ring = equations[0].ring.with_names(equations[0].ring.names, "degrevlex")
@@ -174,7 +179,14 @@ def _by_msolve(ring: Ring, system: Sequence[Polynomial], budget: Budget) -> Para
         one, none = fmpz_poly([1]), fmpz_poly([])
         return Parametrization(ring, one, one, (none,) * len(ring.names), "modular")
     found, separating = _read(ring, raw)
-    return found if separating and all(map(found.vanishes, system)) else None
+    return found if separating and all(_holds(found, f, budget) for f in system) else None
+
+
+def _holds(found: Parametrization, equation: Polynomial, budget: Budget) -> bool:
+    """Whether an equation holds at all points: exactly, or modulo primes where that is too dear."""
+    if found.cost_of(equation) < _EXACT_COST:
+        return found.vanishes(equation, lambda: budget.check("the substitution of points"))
+    return all(found.vanishes_modulo(equation, p) is not False for p in islice(primes(), 3))
 
 
 def _read(ring: Ring, raw: RawParametrization) -> tuple[Parametrization, bool]:
