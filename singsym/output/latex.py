@@ -7,13 +7,14 @@ set in the line, where TeX breaks them after operators.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from singsym.elimination.conditions import polynomial_latex, symbol_latex
+from singsym.output.pieces import grouped, known_by, moving
 
 if TYPE_CHECKING:
-    from singsym.classes.result import Classification, ClassResult, Locus
+    from singsym.classes.result import Classification, ClassResult, Configuration, Locus
     from singsym.classes.solve import Solution
     from singsym.classes.types import Table
     from singsym.elimination.conditions import Condition, Conditions, Factor
@@ -34,6 +35,7 @@ _PREAMBLE = r"""\documentclass[a4paper,10pt]{article}
 \newcommand{\fitted}[1]{\par\medskip\noindent\sbox{\fitbox}{#1}%
   \ifdim\wd\fitbox>\linewidth\resizebox{\linewidth}{!}{\usebox{\fitbox}}\else\hfil\usebox{\fitbox}\fi\par\medskip}
 \relpenalty=50 \binoppenalty=100 \emergencystretch=3em
+\lineskiplimit=1pt \lineskip=2pt
 \setlength{\parindent}{0pt} \setlength{\parskip}{3pt plus 1pt}
 \raggedright
 \makeatletter\def\@listi{\leftmargin\leftmargini \topsep2pt \parsep0pt \itemsep1pt}\makeatother
@@ -175,7 +177,8 @@ def conditions_latex(conditions: Conditions, mechanism: Mechanism | None = None)
     parts = [_description(mechanism)] if mechanism is not None else []
     parts += [*_loops(equation), *_velocity(equation)]
     parts += [r"\section*{Reduction}", *reduction_latex(conditions)]
-    parts += matrix_latex(r"L", reduction.equation.L, reduction.equation.columns)
+    if reduction.record:
+        parts += matrix_latex("L", reduction.equation.L, reduction.equation.columns)
     parts += [r"\section*{Conditions}", *(condition_latex(c) for c in conditions)]
     return "\n\n".join(parts)
 
@@ -192,7 +195,9 @@ def reduction_latex(conditions: Conditions) -> list[str]:
         items.append(f"\\item {escaped(which)} {by} ${polynomial_latex(step.pivot, 8)}${reason}")
     size = r" \times ".join(map(str, reduction.equation.matrix.shape))
     last = f"Every rank is that of the reduced matrix (${size}$) plus {reduction.constant}."
-    return ["\\begin{itemize}\n" + "\n".join(items) + "\n\\end{itemize}", last] if items else [last]
+    if not items:
+        return ["No passive velocity can be eliminated."]
+    return ["\\begin{itemize}\n" + "\n".join(items) + "\n\\end{itemize}", last]
 
 
 def condition_latex(condition: Condition) -> str:
@@ -253,8 +258,8 @@ def classification_latex(result: Classification) -> str:
     parts = [conditions_latex(found, result.mechanism)]
     if result.loci:
         parts += [r"\section*{Singularity set}", _loci(result.loci)]
-    parts += [r"\section*{Classes}", _class_table(result.classes)]
-    parts += [_class(c) for c in result.classes if c.verdict.is_yes]
+    parts += [r"\section*{Classes}", _class_table(result)]
+    parts += [_class(c, result) for c in result.classes if c.verdict.is_yes]
     doubts = [c for c in result.classes if c.verdict.is_undecided]
     if doubts:
         items = "\n".join(f"\\item ({c.types}): {escaped(c.verdict.reason)}" for c in doubts)
@@ -282,31 +287,34 @@ def _locus_name(locus: Locus) -> str:
     return escaped(locus.words) if locus.words else shown
 
 
-def _class_table(classes: Sequence[ClassResult]) -> str:
+def _class_table(result: Classification) -> str:
     rows = " \\\\\n".join(
         f"{c.singularity_class.number} & {c.types} & {c.verdict.answer} & "
-        f"{'' if c.verdict.is_undecided else c.verdict.certainty} & {_count(c.dimension)} & "
+        f"{known_by(result, c.singularity_class.number)} & {_count(c.dimension)} & "
         f"{_count(c.points)} & {_count(c.components)} & {', '.join(c.steps)}"
-        for c in classes
+        for c in result.classes
     )
     return (
-        "\\begin{longtable}{@{}rlllcccl@{}}\n\\toprule\n"
-        " & types & there? & known by & dimension & points & components & step \\\\\n\\midrule\n\\endhead\n"
-        f"{rows} \\\\\n\\bottomrule\n\\end{{longtable}}"
+        "\\begin{center}\\begin{tabular}{@{}rlllcccl@{}}\n\\toprule\n"
+        " & types & there? & known by & dimension & points & components & step \\\\\n\\midrule\n"
+        f"{rows} \\\\\n\\bottomrule\n\\end{{tabular}}\\end{{center}}"
     )
 
 
-def _class(result: ClassResult) -> str:
+def _class(result: ClassResult, whole: Classification) -> str:
     """A class that occurs: equations of its pieces, and one configuration."""
     head = f"\\subsection*{{{result.singularity_class.number}\\quad ({result.types})}}"
-    items = dict.fromkeys(
-        rf"\item ${_equations(piece.path)}$"
-        + f", dimension {_count(piece.dimension)}"
-        + (f", {piece.points} points" if piece.points is not None else "")
-        for piece in result.pieces
-    )
+    items = []
+    for group in grouped(result.pieces, whole.loci):
+        said = [
+            escaped(w) if w else f"${polynomial_latex(p, 8)} = 0$"
+            for p, w in zip(group.path, group.words, strict=True)
+        ]
+        counts = f", {group.points} points" if group.points is not None else ""
+        where = r" \emph{and} ".join(said) or "everywhere"
+        items.append(rf"\item {where}: dimension {_count(group.dimension)}{counts}")
     listed = "\\begin{itemize}\n" + "\n".join(items) + "\n\\end{itemize}"
-    shown = [f"For instance {_configuration(w.points or w.coordinates)}." for w in result.witnesses[:1]]
+    shown = [f"For instance {_configuration(w, whole.equation)}." for w in result.witnesses[:1]]
     return "\n".join([head, listed, *shown])
 
 
@@ -314,9 +322,19 @@ def _equations(path: Sequence[Polynomial]) -> str:
     return r" = 0,\; ".join(polynomial_latex(p, 8) for p in path) + " = 0" if path else r"\text{everywhere}"
 
 
-def _configuration(values: Mapping[str, str]) -> str:
-    pairs = [(symbol_latex(name.replace(".", "")), float(value)) for name, value in values.items()]
-    return ", ".join(f"${name} = {value:.6f}$" for name, value in pairs)
+def _configuration(found: Configuration, equation: VelocityEquation) -> str:
+    """Moving points with their coordinates, else the variables."""
+    places: dict[str, list[str]] = {}
+    for name, value in moving(found.points, equation).items():
+        places.setdefault(name.rpartition(".")[0], []).append(f"{float(value):.6f}")
+    if places:
+        return ", ".join(f"${_point(name)} = ({', '.join(place)})$" for name, place in places.items())
+    values = found.coordinates.items()
+    return ", ".join(f"${symbol_latex(name)} = {float(value):.6f}$" for name, value in values)
+
+
+def _point(name: str) -> str:
+    return symbol_latex(name) if len(name) > 1 else name
 
 
 def solution_latex(solutions: Iterable[Solution]) -> str:
@@ -328,9 +346,7 @@ def solution_latex(solutions: Iterable[Solution]) -> str:
         items = []
         for piece in solution.pieces:
             counts = f", {piece.points} points" if piece.points is not None else ""
-            shown = [
-                f" For instance {_configuration(w.points or w.coordinates)}." for w in piece.witnesses[:1]
-            ]
+            shown = [f" For instance {_configuration(w, solution.equation)}." for w in piece.witnesses[:1]]
             where = _equations(piece.path)
             items.append(rf"\item ${where}$, dimension {_count(piece.dimension)}{counts}." + "".join(shown))
         if items:

@@ -9,6 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from singsym.output.page import Block, Grid, Page
+from singsym.output.pieces import grouped, known_by, moving
 
 if TYPE_CHECKING:
     from singsym.classes.at import Analysis
@@ -202,7 +203,7 @@ def classification_page(result: Classification) -> Page:
     head = f"{name}: N = {equation.N}, n = {equation.n}"
     space = tuple(_space_row(piece) for piece in result.configuration_space)
     loci = tuple(_locus_row(locus) for locus in result.loci)
-    rows = tuple(_class_row(c) for c in result.classes)
+    rows = tuple(_class_row(c, result) for c in result.classes)
     blocks: list[Block] = [head]
     if space:
         blocks.append(Grid(("dimension", "smooth", "remark"), space, "Configuration space"))
@@ -211,7 +212,7 @@ def classification_page(result: Classification) -> Page:
     blocks.append(Grid(_CLASSES, rows, "The classes"))
     for found in result.classes:
         if found.verdict.is_yes:
-            blocks.append(_class_text(found))
+            blocks.append(_class_text(found, result))
     doubts = tuple((str(c.types), c.verdict.reason) for c in result.classes if c.verdict.is_undecided)
     if doubts:
         blocks.append(Grid(("types", "why"), doubts, "Undecided"))
@@ -237,13 +238,13 @@ def _dimension(dimension: int | None) -> str:
     return "empty" if dimension == -1 else _count(dimension)
 
 
-def _class_row(result: ClassResult) -> tuple[str, ...]:
+def _class_row(result: ClassResult, whole: Classification) -> tuple[str, ...]:
     verdict = result.verdict
     return (
         str(result.singularity_class.number),
         str(result.types),
         str(verdict.answer),
-        "" if verdict.is_undecided else str(verdict.certainty),
+        known_by(whole, result.singularity_class.number),
         _dimension(result.dimension),
         _count(result.points),
         _count(result.components),
@@ -251,24 +252,21 @@ def _class_row(result: ClassResult) -> tuple[str, ...]:
     )
 
 
-def _class_text(result: ClassResult) -> str:
+def _class_text(result: ClassResult, whole: Classification) -> str:
     """A class that occurs: its pieces by what vanishes on the way, and one configuration."""
     lines = [f"{result.singularity_class.number} ({result.types})"]
-    known: set[str] = set()
-    for piece in result.pieces:
-        path = ", ".join(f"{polynomial_text(p, 6)} = 0" for p in piece.path) or "everywhere"
-        count = f", {piece.points} points" if piece.points is not None else ""
-        line = f"  dimension {_dimension(piece.dimension)}{count}: {path}"
-        if line not in known:
-            lines.append(line)
-        known.add(line)
-    lines += [f"  for instance {configuration_text(w)}" for w in result.witnesses[:1]]
+    for group in grouped(result.pieces, whole.loci):
+        said = [w or f"{polynomial_text(p, 6)} = 0" for p, w in zip(group.path, group.words, strict=True)]
+        count = f", {group.points} points" if group.points is not None else ""
+        where = " and ".join(said) or "everywhere"
+        lines.append(f"  dimension {_dimension(group.dimension)}{count}: {where}")
+    lines += [f"  for instance {configuration_text(w, whole.equation)}" for w in result.witnesses[:1]]
     return "\n".join(lines)
 
 
-def configuration_text(found: Configuration, digits: int = 7) -> str:
-    """A certified configuration on one line: named points, else the variables; joint values after them."""
-    named = points_text(found.points, digits) or values_text(found.coordinates, digits)
+def configuration_text(found: Configuration, equation: VelocityEquation, digits: int = 7) -> str:
+    """A certified configuration on one line: moving points, else the variables; joint values after them."""
+    named = points_text(moving(found.points, equation), digits) or values_text(found.coordinates, digits)
     joints = values_text(found.joints, digits)
     return f"{named}; {joints}" if joints else named
 
@@ -313,7 +311,7 @@ def solution_page(name: str, solutions: Iterable[Solution]) -> Page:
             for number, piece in enumerate(solution.pieces, 1)
         )
         shown = [
-            f"  {number}: for instance {configuration_text(piece.witnesses[0])}"
+            f"  {number}: for instance {configuration_text(piece.witnesses[0], solution.equation)}"
             for number, piece in enumerate(solution.pieces, 1)
             if piece.witnesses
         ]

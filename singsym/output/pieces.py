@@ -1,0 +1,55 @@
+"""The pieces of a class gathered by the equations that lead to them, and what moves in a configuration.
+
+Source: Table 2 of Zlatanov, Fenton, Benhabib (1998) lists a class by its conditions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from singsym.classes.result import Classification, Equations, Locus, Piece
+    from singsym.kinematics.velocity import VelocityEquation
+
+
+@dataclass(frozen=True)
+class Group:
+    """All pieces of a class with the same vanishing factors; `words` has a text or "" for each factor."""
+
+    path: Equations
+    words: tuple[str, ...]
+    dimension: int | None
+    points: int | None
+
+
+def grouped(pieces: Iterable[Piece], loci: Iterable[Locus]) -> tuple[Group, ...]:
+    """The pieces by their paths in order of appearance, points added up."""
+    words = {locus.factor: locus.words for locus in loci}
+    by_path: dict[Equations, list[Piece]] = {}
+    for piece in pieces:
+        by_path.setdefault(piece.path, []).append(piece)
+    groups = []
+    for path, own in by_path.items():
+        counts = [piece.points for piece in own if piece.points is not None]
+        dimension = max((p.dimension for p in own if p.dimension is not None), default=None)
+        points = sum(counts) if len(counts) == len(own) else None
+        groups.append(Group(path, tuple(words.get(p, "") for p in path), dimension, points))
+    return tuple(groups)
+
+
+def moving(points: Mapping[str, str], equation: VelocityEquation) -> dict[str, str]:
+    """The coordinates, named `B.x`, of the points that are not fixed to the ground."""
+    fixed = {n for n, place in equation.space.points.items() if all(p.is_constant for p in place)}
+    return {name: value for name, value in points.items() if name.rpartition(".")[0] not in fixed}
+
+
+def known_by(result: Classification, number: int) -> str:
+    """How the verdict on a class is known: its certainty, or that the mobility forbids the class."""
+    from singsym.classes.types import feasible_classes
+
+    found = next(c for c in result.classes if c.singularity_class.number == number)
+    if found.singularity_class not in feasible_classes(result.equation.n):
+        return f"impossible for n = {result.equation.n}"
+    return "" if found.verdict.is_undecided else str(found.verdict.certainty)
