@@ -10,12 +10,13 @@ from html import escape
 
 import sympy
 
+from singsym.elimination.conditions import symbol_latex
 from singsym.polynomials import Polynomial, PolynomialMatrix
 
 LONGEST = 40
 """Polynomials with more terms are cut, with the number of terms left out."""
 
-_INDEXED = re.compile(r"([a-zA-Z])_?([a-zA-Z0-9]{1,3})")
+_INDEXED = re.compile(r"([a-zA-Z])_\{(?:\\mathrm\{)?(\w+)\}+")
 
 
 def formula(*parts: str, block: bool = False) -> str:
@@ -29,7 +30,7 @@ def polynomial(p: Polynomial, longest: int = LONGEST) -> str:
 
     >>> from singsym.polynomials import Ring
     >>> polynomial(Ring(("Bx",)).gens[0])
-    '<msub><mi>B</mi><mi>x</mi></msub>'
+    '<msub><mi>x</mi><mi>B</mi></msub>'
     """
     from sympy.printing.mathml import mathml
 
@@ -43,10 +44,10 @@ def polynomial(p: Polynomial, longest: int = LONGEST) -> str:
 
 
 def _indexed(p: Polynomial) -> dict[sympy.Symbol, sympy.Symbol]:
-    """Bx, c_A, s3 as a letter with an index."""
+    """Variables as letters with an index, as the LaTeX output writes them: Bx is x_B."""
     found = {}
     for name in p.ring.names:
-        if match := _INDEXED.fullmatch(name):
+        if match := _INDEXED.fullmatch(symbol_latex(name)):
             found[sympy.Symbol(name)] = sympy.Symbol(f"{match[1]}_{match[2]}")
     return found
 

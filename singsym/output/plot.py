@@ -36,7 +36,7 @@ def plot_mechanism(
 
     >>> from singsym.mechanism import load
     >>> plot_mechanism(load("fourbar")).title
-    'Four-bar linkage'
+    'Four-bar linkage, crank-rocker'
     """
     from singsym.output.plot_scene import Stage
 

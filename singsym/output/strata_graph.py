@@ -102,7 +102,8 @@ def plot_strata(classification: Classification, graph: networkx.DiGraph | None =
         row = sorted(rows[dimension], key=lambda n: (above[n], n))
         for i, node in enumerate(row):
             place[node] = ((i + 0.5) * widest / len(row), -1.6 * level)
-    figure = canvas(max(5.0, 1.75 * widest), 0.8 + 1.5 * len(order))
+    letters = max(len(line) for _, label in graph.nodes(data="label") for line in label.split("\n"))
+    figure = canvas(max(5.0, (0.6 + 0.075 * letters) * widest), 0.8 + 1.5 * len(order))
     axes = figure.add_subplot()
     axes.axis("off")
     boxes = {}

@@ -1,0 +1,128 @@
+"""Figures: velocities of points against rigidity, arrows against Figs 2-4 of the paper, curves, strata."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from singsym.classes.classify import classify
+from singsym.classes.result import Classification
+from singsym.classes.types import SingularityType as T
+from singsym.kinematics.sampling import numerical_matrix
+from singsym.mechanism import load
+from singsym.mechanism.model import Space
+from singsym.output.plot import class_pictures, plot_class, plot_mechanism
+from singsym.output.plot_curves import Coordinate, plot_curves, trace_loci
+from singsym.output.plot_motion import impossible, null_motions
+from singsym.output.plot_scene import Stage
+from singsym.output.strata_graph import plot_strata, strata_graph
+
+
+@pytest.fixture(scope="module")
+def linkage() -> Classification:
+    return classify(load("zlatanov-2dof"), cache=False)
+
+
+@pytest.mark.parametrize("name", ["fourbar", "slider-crank", "3rpr", "3rrr", "puma560", "zlatanov-hybrid"])
+def test_a_feasible_motion_keeps_links_rigid_and_joints_together(name: str) -> None:
+    stage = Stage.of(load(name))
+    point = stage.sample(seed=3)
+    matrix = numerical_matrix(stage.equation.matrix, point)
+    motion = np.linalg.svd(matrix)[2][-1]
+    labels = [c.label for c in stage.equation.columns]
+    moving = stage.velocities(point, dict(zip(labels, motion, strict=True)))
+    scene = stage.scene(point)
+    # sampled points are as near to the loops as their size allows
+    small = 1e-7 * max(scene.size, 1)
+    for body in scene.bodies:
+        for a, p in body.points.items():
+            for b, q in body.points.items():
+                assert abs((p - q) @ (moving[body.name, a] - moving[body.name, b])) < small * scene.size
+    for joint in stage.mechanism.joints:
+        if joint.kind in "RSU":
+            ends = (joint.first, joint.at[0]), (joint.second, joint.at[1])
+            at = [
+                body.points[n]
+                for e, n in ends
+                for body in scene.bodies
+                if body.name == e and n in body.points
+            ]
+            assert len(at) == 2
+            # an axis may be held by two different points of it
+            if np.abs(at[0] - at[1]).max() < small:
+                assert np.abs(moving[ends[0]] - moving[ends[1]]).max() < small
+
+
+def test_the_passive_motion_of_fig_2_moves_only_the_pin_between_b_d_and_g(linkage: Classification) -> None:
+    stage = Stage.of(load("zlatanov-2dof"), linkage.equation)
+    found = linkage.of(T.RPM | T.II | T.IO)
+    point = stage.vector(found.witnesses[0].coordinates)
+    (motion,) = null_motions(stage.equation, point, found.pieces[0].defects)
+    assert motion.kind == "RPM"
+    moving = stage.velocities(point, motion.velocities)
+    fast = {name for (_, name), v in moving.items() if np.abs(v).max() > 1e-8}
+    assert fast == {"C"}
+
+
+def test_fig_4_moves_the_elbow_of_the_input_leg_with_the_output_at_rest(linkage: Classification) -> None:
+    stage = Stage.of(load("zlatanov-2dof"), linkage.equation)
+    found = linkage.of(T.RI | T.IO)
+    piece = next(p for p in found.pieces if str(p.path[0]) == "By*Cx - Bx*Cy")
+    point = stage.vector(piece.witnesses[0].coordinates)
+    (motion,) = null_motions(stage.equation, point, piece.defects)
+    moving = stage.velocities(point, motion.velocities)
+    assert motion.kind == "RI"
+    assert {name for (_, name), v in moving.items() if np.abs(v).max() > 1e-8} == {"B"}
+    assert impossible(stage.equation, point, piece.defects, "input") == ""
+    assert impossible(stage.equation, point, piece.defects, "output").endswith("= 0")
+
+
+def test_every_class_has_a_picture_with_words(linkage: Classification) -> None:
+    pictures = [picture for _, picture in class_pictures(linkage)]
+    assert [p.title[:7] for p in pictures] == ["Class 1", "Class 2", "Class 3", "Class 4"]
+    assert all(p.svg().startswith("<svg") and p.description for p in pictures)
+
+
+def test_curves_have_the_components_that_are_proven_and_lie_on_their_loci(linkage: Classification) -> None:
+    traces = trace_loci(linkage)
+    assert [len(t.components) for t in traces] == [locus.components for locus in linkage.loci]
+    for trace in traces:
+        for line in (arc for component in trace.components for arc in component):
+            assert max(abs(trace.locus.factor.evaluate(list(p))) for p in line) < 1e-6
+    picture = plot_curves(linkage, "inputs", traces)
+    assert "B, C, D collinear" in picture.description
+    assert plot_curves(linkage, ("C.x", "G.y"), traces).title == "Singularity curves"
+
+
+def test_coordinates_of_another_name_are_refused_with_those_there_are(linkage: Classification) -> None:
+    with pytest.raises(ValueError, match="expected one of A, B"):
+        _ = Coordinate("Q", linkage.equation).is_angle
+
+
+def test_the_graph_of_strata_of_the_linkage(linkage: Classification) -> None:
+    graph = strata_graph(linkage)
+    labels = dict(graph.nodes(data="label"))
+    up = {(labels[a].split("\n")[0], labels[b].split("\n")[-1]) for a, b in graph.edges if b[0]}
+    assert ("4 (RPM, II, IO)", "B, C, D collinear") in up
+    assert ("4 (RPM, II, IO)", "C, D, G collinear") in up
+    assert ("4 (RPM, II, IO)", "A, B, C collinear") not in up
+    assert graph.graph["undecided"] == 0
+    assert all(graph.nodes[a]["dimension"] < graph.nodes[b]["dimension"] for a, b in graph.edges)
+    assert "closure" in plot_strata(linkage, graph).description
+
+
+@pytest.mark.parametrize("name", ["3rpr", "spherical-fourbar", "stewart-gough", "ur5", "slider-crank"])
+def test_mechanisms_of_every_space_can_be_drawn(name: str, tmp_path: object) -> None:
+    mechanism = load(name)
+    picture = plot_mechanism(mechanism, seed=1)
+    assert picture.save(f"{tmp_path}/figure.pdf").stat().st_size > 1000
+    assert ("3d" in str(type(picture.figure.axes[0])).lower()) == (mechanism.space is not Space.PLANAR)
+
+
+def test_files_and_configurations_that_are_not_there_are_refused(linkage: Classification) -> None:
+    with pytest.raises(ValueError, match="ends in"):
+        plot_mechanism(load("fourbar")).save("figure.docx")
+    with pytest.raises(ValueError, match="missing"):
+        plot_mechanism(load("fourbar"), {"Bx": 1})
+    with pytest.raises(ValueError, match="configurations known"):
+        plot_class(linkage, T.IIM | T.RPM)
