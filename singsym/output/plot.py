@@ -16,8 +16,8 @@ from singsym.mechanism.model import Mechanism, Space
 from singsym.output.plot_style import Picture
 
 if TYPE_CHECKING:
+    from singsym.classes.motions import Motion
     from singsym.classes.result import Classification, ClassResult
-    from singsym.output.plot_motion import Motion
     from singsym.output.plot_scene import Floats, Scene, Stage
 
 
@@ -53,7 +53,7 @@ def plot_class(
 
     Raises `ValueError` where the class has no such configuration, or no mechanism was given.
     """
-    from singsym.output.plot_motion import null_motions
+    from singsym.output.plot_motion import drawn_motions, motions_at
 
     stage = _stage(classification)
     found = classification.of(result) if isinstance(result, SingularityType) else result
@@ -64,7 +64,7 @@ def plot_class(
         )
     configuration, piece = shown[witness]
     point = stage.vector(configuration.coordinates)
-    motions = null_motions(stage.equation, point, piece.defects)
+    motions = drawn_motions(motions_at(stage.equation, point, piece.defects))
     title = f"Class {found.singularity_class.number} ({found.singularity_class.name})"
     return _drawn(stage, point, motions, title, _class_words(stage, title, motions))
 
@@ -77,12 +77,12 @@ def plot_configuration(
     equation: VelocityEquation | None = None,
 ) -> Picture:
     """A mechanism at a configuration with these rank defects, its null motions as arrows."""
-    from singsym.output.plot_motion import null_motions
+    from singsym.output.plot_motion import drawn_motions, motions_at
     from singsym.output.plot_scene import Stage
 
     stage = Stage.of(mechanism, equation)
     point = stage.vector(coordinates)
-    motions = null_motions(stage.equation, point, defects)
+    motions = drawn_motions(motions_at(stage.equation, point, defects))
     title = str(defects.types)
     return _drawn(stage, point, motions, title, _class_words(stage, title, motions))
 
@@ -96,13 +96,14 @@ def _stage(classification: Classification) -> Stage:
 
 
 def _drawn(stage: Stage, point: Floats, motions: Sequence[Motion], title: str, description: str) -> Picture:
+    from singsym.output.plot_motion import WORDS
     from singsym.output.plot_style import INK, MOTION, canvas
 
     planar = stage.mechanism.space is Space.PLANAR
     scene = stage.scene(point)
     figure = canvas(5.4, _height(scene) if planar else 4.8)
     axes = figure.add_subplot(projection=None if planar else "3d")
-    moving = [(m, stage.velocities(point, m.velocities)) for m in motions]
+    moving = [(m, stage.velocities(point, m.rates)) for m in motions]
     if planar:
         from singsym.output.plot_planar import draw_planar
 
@@ -113,7 +114,9 @@ def _drawn(stage: Stage, point: Floats, motions: Sequence[Motion], title: str, d
         draw_spatial(axes, scene, moving)
     figure.suptitle(title, fontsize=12, color=INK)
     for row, motion in enumerate(motions):
-        figure.text(0.02, 0.02 + 0.04 * row, f"→ {motion.words}", fontsize=8.5, color=MOTION[motion.kind])
+        figure.text(
+            0.02, 0.02 + 0.04 * row, f"→ {WORDS[motion.type]}", fontsize=8.5, color=MOTION[str(motion.type)]
+        )
     return Picture(figure, title, description)
 
 
@@ -130,7 +133,9 @@ def _words(mechanism: Mechanism) -> str:
 
 
 def _class_words(stage: Stage, title: str, motions: Sequence[Motion]) -> str:
-    moving = "; ".join(f"{m.words} ({m.rates})" for m in motions)
+    from singsym.output.plot_motion import WORDS, rates_text
+
+    moving = "; ".join(f"{WORDS[m.type]} ({rates_text(m)})" for m in motions)
     return f"{title} of {stage.mechanism.title or stage.mechanism.name}. Arrows: {moving}"
 
 

@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from singsym.classes.motions import Motion
 from singsym.mechanism.model import JointKind
-from singsym.output.plot_motion import Motion
 from singsym.output.plot_scene import Body, Floats, Mark, Scene, distinct
 from singsym.output.plot_style import INK, INPUT, LINK, MOTION, OUTPUT, PALE, PAPER, PLATFORM
 
@@ -240,7 +240,7 @@ def _arrows(axes: Any, scene: Scene, motion: Motion, velocities: Velocities) -> 
             tip = place + v * (0.25 * scene.size / fastest)
             style = {
                 "arrowstyle": "-|>,head_width=0.28,head_length=0.55",
-                "color": MOTION[motion.kind],
+                "color": MOTION[str(motion.type)],
                 "lw": 2.2,
                 "shrinkA": 0,
                 "shrinkB": 0,

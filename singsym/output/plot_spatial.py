@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from singsym.classes.motions import Motion
 from singsym.mechanism.model import JointKind, Space
-from singsym.output.plot_motion import Motion
 from singsym.output.plot_scene import Body, Floats, Mark, Scene
 from singsym.output.plot_style import INK, INPUT, LINK, MOTION, OUTPUT, PALE, PAPER, PLATFORM
 
@@ -153,4 +153,4 @@ def _arrows(axes: Any, scene: Scene, motion: Motion, velocities: Velocities, siz
     for place, v in shown if fastest > 1e-9 else ():
         if float(np.linalg.norm(v)) > 1e-3 * fastest:
             arrow = v * (0.28 * size / fastest)
-            axes.quiver(*place, *arrow, color=MOTION[motion.kind], lw=2.2, arrow_length_ratio=0.28)
+            axes.quiver(*place, *arrow, color=MOTION[str(motion.type)], lw=2.2, arrow_length_ratio=0.28)

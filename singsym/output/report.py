@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from html import escape
 
 from singsym.classes.result import Classification, ClassResult, Piece
+from singsym.classes.types import SingularityType
 from singsym.mechanism.model import JointRate
 from singsym.output import html_math as math
 from singsym.output import html_page as html
@@ -220,7 +221,7 @@ def _impossible(classification: Classification, result: ClassResult) -> str:
     """Which input and output velocities are impossible at the configuration that is drawn."""
     import numpy as np
 
-    from singsym.output.plot_motion import impossible
+    from singsym.output.plot_motion import motions_at, restriction_text
 
     found = next(((w, p) for p in result.pieces for w in p.witnesses), None)
     if found is None:
@@ -228,11 +229,12 @@ def _impossible(classification: Classification, result: ClassResult) -> str:
     equation = classification.equation
     coordinates = found[0].coordinates
     point = np.array([float(coordinates[name]) for name in equation.space.ring.names])
-    lines = []
-    for role in ("input", "output"):
-        relation = impossible(equation, point, found[1].defects, role)
-        if relation:
-            lines.append(f"<li>{role} velocities must obey {escape(relation)}</li>")
+    lines = [
+        f"<li>{'input' if m.type is SingularityType.II else 'output'} velocities must obey "
+        f"{escape(restriction_text(m))}</li>"
+        for m in motions_at(equation, point, found[1].defects)
+        if m.restriction
+    ]
     return f"<p>At this configuration:</p><ul>{''.join(lines)}</ul>" if lines else ""
 
 

@@ -13,7 +13,7 @@ from singsym.mechanism import load
 from singsym.mechanism.model import Space
 from singsym.output.plot import class_pictures, plot_class, plot_mechanism
 from singsym.output.plot_curves import Coordinate, plot_curves, trace_loci
-from singsym.output.plot_motion import impossible, null_motions
+from singsym.output.plot_motion import drawn_motions, motions_at, restriction_text
 from singsym.output.plot_scene import Stage
 from singsym.output.strata_graph import plot_strata, strata_graph
 
@@ -57,9 +57,9 @@ def test_the_passive_motion_of_fig_2_moves_only_the_pin_between_b_d_and_g(linkag
     stage = Stage.of(load("zlatanov-2dof"), linkage.equation)
     found = linkage.of(T.RPM | T.II | T.IO)
     point = stage.vector(found.witnesses[0].coordinates)
-    (motion,) = null_motions(stage.equation, point, found.pieces[0].defects)
-    assert motion.kind == "RPM"
-    moving = stage.velocities(point, motion.velocities)
+    (motion,) = drawn_motions(motions_at(stage.equation, point, found.pieces[0].defects))
+    assert motion.type is T.RPM
+    moving = stage.velocities(point, motion.rates)
     fast = {name for (_, name), v in moving.items() if np.abs(v).max() > 1e-8}
     assert fast == {"C"}
 
@@ -69,12 +69,14 @@ def test_fig_4_moves_the_elbow_of_the_input_leg_with_the_output_at_rest(linkage:
     found = linkage.of(T.RI | T.IO)
     piece = next(p for p in found.pieces if str(p.path[0]) == "By*Cx - Bx*Cy")
     point = stage.vector(piece.witnesses[0].coordinates)
-    (motion,) = null_motions(stage.equation, point, piece.defects)
-    moving = stage.velocities(point, motion.velocities)
-    assert motion.kind == "RI"
+    motions = motions_at(stage.equation, point, piece.defects)
+    (motion,) = drawn_motions(motions)
+    moving = stage.velocities(point, motion.rates)
+    assert motion.type is T.RI
     assert {name for (_, name), v in moving.items() if np.abs(v).max() > 1e-8} == {"B"}
-    assert impossible(stage.equation, point, piece.defects, "input") == ""
-    assert impossible(stage.equation, point, piece.defects, "output").endswith("= 0")
+    (restriction,) = (m for m in motions if m.restriction)
+    assert restriction.type is T.IO
+    assert restriction_text(restriction).endswith("= 0")
 
 
 def test_every_class_has_a_picture_with_words(linkage: Classification) -> None:
