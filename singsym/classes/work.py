@@ -16,6 +16,7 @@ from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, as_completed
 from fractions import Fraction
 from pathlib import Path
+from types import TracebackType
 from typing import Any, TypeVar
 
 from singsym.elimination import engines, progress
@@ -173,9 +174,22 @@ class Runner:
             self.cache.put(paths[i], result)
 
 
+class _Processes(ProcessPoolExecutor):
+    """Processes that end at once where the work is interrupted, instead of finishing their tasks."""
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if isinstance(error, KeyboardInterrupt):
+            self.shutdown(wait=False, cancel_futures=True)
+            for child in multiprocessing.active_children():
+                child.terminate()
+        super().__exit__(kind, error, trace)
+
+
 def processes(workers: int) -> Executor | None:
     """An executor of that many processes; None for one worker, which needs no executor."""
     if workers <= 1:
         return None
     method = "forkserver" if "forkserver" in multiprocessing.get_all_start_methods() else "spawn"
-    return ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context(method))
+    return _Processes(workers, mp_context=multiprocessing.get_context(method))

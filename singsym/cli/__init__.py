@@ -37,7 +37,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # the reader of the pipe has gone; the flush at exit would complain again
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return BROKEN_PIPE
-    except KeyboardInterrupt:
-        say(f"singsym {chosen.command}: interrupted{chosen.on_interrupt}")
+    except KeyboardInterrupt as interrupt:
+        during = f" during {interrupt}" if str(interrupt) else ""
+        say(f"singsym {chosen.command}: interrupted{during}{chosen.on_interrupt}")
         return INTERRUPTED
     return code

@@ -107,9 +107,10 @@ def run_show(chosen: argparse.Namespace) -> int:
 
         emit_data(mechanism_data(mechanism, equation))
     elif chosen.format == "latex":
-        from singsym.output.latex import mechanism_latex
+        from singsym.output.latex import document, mechanism_latex
 
-        print(mechanism_latex(mechanism, equation))
+        body = mechanism_latex(mechanism, equation)
+        print(document(body, mechanism.title or mechanism.name) if chosen.standalone else body)
     else:
         from singsym.output.text import mechanism_page
 

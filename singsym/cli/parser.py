@@ -45,12 +45,12 @@ def parser() -> argparse.ArgumentParser:
         prog="singsym",
         description=STORY,
         epilog=EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        formatter_class=lambda prog: argparse.RawDescriptionHelpFormatter(prog, max_help_position=16),
         usage="singsym COMMAND ...",
     )
     top.add_argument("--version", action="version", version=f"singsym {_version()}")
     top.set_defaults(run=None, command="", on_interrupt="")
-    commands = top.add_subparsers(title="commands", metavar="", dest="command")
+    commands = top.add_subparsers(title="commands", metavar="", dest="command", prog="singsym")
 
     def add(
         name: str, module: str, words: str, *parts: Callable[[argparse.ArgumentParser], None]
@@ -61,53 +61,19 @@ def parser() -> argparse.ArgumentParser:
             part(command)
         return command
 
-    formats = _formats("text", "json")
-    printed = _formats("text", "latex", "json")
-    add("list", "mechanisms", "the mechanisms of the library", formats)
+    short, printed = _formats("text", "json"), _formats("text", "latex", "json")
+    shown = _formats("text", "latex", "json", "toml")
+    add("list", "mechanisms", "the mechanisms of the library", short)
     add("new", "mechanisms", "write a commented mechanism file to start from", _name)
-    add(
-        "show",
-        "mechanisms",
-        "a mechanism's joints, loop equations and L",
-        _mechanism,
-        _formats("text", "latex", "json", "toml"),
-    )
-    add("check", "mechanisms", "what is wrong with a mechanism, if anything", _mechanism, formats)
-    add(
-        "conditions",
-        "singularities",
-        "conditions (4), (5), (i)-(viii), factored",
-        _mechanism,
-        printed,
-        _standalone,
-    )
-    add(
-        "classify",
-        "singularities",
-        "the singularity set and its classes",
-        _mechanism,
-        _work,
-        printed,
-        _standalone,
-    )
-    add(
-        "solve",
-        "singularities",
-        "the solution sets of conditions: 4 5 i ii ... viii",
-        _mechanism,
-        _labels,
-        _work,
-        printed,
-        _standalone,
-    )
-    add(
-        "at",
-        "singularities",
-        "ranks, types and null motions of one configuration",
-        _mechanism,
-        _configuration,
-        formats,
-    )
+    add("show", "mechanisms", "a mechanism's joints, loop equations and L", _mechanism, shown, _standalone)
+    add("check", "mechanisms", "what is wrong with a mechanism, if anything", _mechanism, short)
+    whole = (_mechanism, _work, printed, _standalone)
+    words = "conditions (4), (5), (i)-(viii), factored"
+    add("conditions", "singularities", words, _mechanism, printed, _standalone)
+    add("classify", "singularities", "the singularity set and its classes", *whole)
+    add("solve", "singularities", "the solution sets of some conditions", *whole, _labels)
+    words = "ranks, types and null motions of one configuration"
+    add("at", "singularities", words, _mechanism, _configuration, short)
     add(
         "classes",
         "singularities",
@@ -116,8 +82,24 @@ def parser() -> argparse.ArgumentParser:
         printed,
         _standalone,
     )
-    add("engines", "tools", "which engines there are, and how to get the others", _install, formats)
+    add(
+        "plot", "pictures", "draw the mechanism, a class or the singularity curves", _mechanism, _work, _shown
+    )
+    add("report", "pictures", "one HTML page with everything about a mechanism", _mechanism, _work, _output)
+    add("engines", "tools", "which engines there are, and how to get the others", _install, short)
+    add("completion", "tools", "a script that completes commands in a shell", _shell)
     return top
+
+
+def commands() -> list[tuple[str, list[str], bool]]:
+    """Each command with its options, and whether it takes a mechanism: for completion."""
+    found = []
+    for action in parser()._actions:
+        if isinstance(action, argparse._SubParsersAction):
+            for name, command in action.choices.items():
+                options = [o for a in command._actions for o in a.option_strings if o.startswith("--")]
+                found.append((name, options, any(a.dest == "mechanism" for a in command._actions)))
+    return found
 
 
 def _version() -> str:
@@ -230,6 +212,33 @@ def _mobility(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--n", type=_at_least_one, default=3, help="the mobility (default: 3, which allows all)"
     )
+
+
+def _output(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "-o", "--output", metavar="FILE", help="to write (default: named after the mechanism)"
+    )
+
+
+def _shown(command: argparse.ArgumentParser) -> None:
+    _output(command)
+    choice = command.add_mutually_exclusive_group()
+    choice.add_argument(
+        "--class", dest="shown", metavar="NUMBER", help="a class at its configuration, as --class 4"
+    )
+    choice.add_argument(
+        "--curves",
+        dest="shown",
+        choices=("inputs", "outputs"),
+        help="the singularity curves over the plane of two inputs or outputs",
+    )
+    choice.add_argument(
+        "--strata", dest="shown", action="store_const", const="strata", help="which class borders on which"
+    )
+
+
+def _shell(command: argparse.ArgumentParser) -> None:
+    command.add_argument("shell", choices=("bash", "zsh"), help='use: eval "$(singsym completion bash)"')
 
 
 def _install(command: argparse.ArgumentParser) -> None:

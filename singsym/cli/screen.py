@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -57,22 +57,31 @@ def emit_page(page: Page) -> None:
 
 
 @contextmanager
-def progress_shown() -> Iterator[list[str]]:
+def progress_shown() -> Iterator[None]:
     """Show the events of the work inside on stderr, one line that changes; nothing where it is no terminal.
 
-    Yields the stages that were begun, for what to say of an interrupted run.
+    A `KeyboardInterrupt` that passes through gets the last stage as its message.
     """
     from singsym.elimination import progress
 
-    stages: list[str] = []
+    last = ["starting"]
 
     def note(event: Event) -> None:
-        if event.stage != "engine" and event.stage not in stages[-1:]:
-            stages.append(event.stage)
+        if event.stage != "engine":
+            last[0] = str(event)
 
+    try:
+        with _bar(note) as sink, progress.to(sink):
+            yield
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(last[0]) from None
+
+
+@contextmanager
+def _bar(note: Callable[[Event], None]) -> Iterator[Callable[[Event], None]]:
+    """What shows an event and notes it; only notes it where stderr is no terminal."""
     if not sys.stderr.isatty():
-        with progress.to(note):
-            yield stages
+        yield note
         return
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, SpinnerColumn, TextColumn
@@ -91,10 +100,8 @@ def progress_shown() -> Iterator[list[str]]:
         def show(event: Event) -> None:
             note(event)
             described = f"{event.stage}: {event.detail}" if event.detail else event.stage
-            if event.done is None:
-                bar.update(task, description=described[:70])
-            else:
-                bar.update(task, description=described[:70], completed=event.done, total=event.total)
+            bar.update(task, description=described[:70])
+            if event.done is not None:
+                bar.update(task, completed=event.done, total=event.total)
 
-        with progress.to(show):
-            yield stages
+        yield show

@@ -7,10 +7,14 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from singsym.cli.mechanisms import complaint, placed, read
 from singsym.cli.screen import UserError, emit_data, emit_page
 from singsym.mechanism import MechanismError
+
+if TYPE_CHECKING:
+    from singsym.classes.result import Classification
 
 UNDECIDED = 3
 
@@ -58,8 +62,8 @@ def run_classes(chosen: argparse.Namespace) -> int:
     return 0
 
 
-def run_classify(chosen: argparse.Namespace) -> int:
-    """`singsym classify MECHANISM`."""
+def classified(chosen: argparse.Namespace) -> Classification:
+    """The classification that the options ask for, with progress on stderr."""
     from singsym.classes.classify import Limits, classify
     from singsym.cli.screen import progress_shown
     from singsym.elimination import engines
@@ -68,20 +72,26 @@ def run_classify(chosen: argparse.Namespace) -> int:
     placed(mechanism, chosen.formulation)
     _resumable(chosen)
     with engines.use(*chosen.engines), progress_shown():
-        result = classify(
+        return classify(
             mechanism,
             formulation=chosen.formulation,
             workers=chosen.workers,
             limits=Limits(seconds=chosen.budget),
             cache=chosen.cache,
         )
+
+
+def run_classify(chosen: argparse.Namespace) -> int:
+    """`singsym classify MECHANISM`."""
+    result = classified(chosen)
     if chosen.format == "json":
         emit_data(result.as_json())
     elif chosen.format == "latex":
         from singsym.output.latex import classification_latex, document
 
         body = classification_latex(result)
-        print(document(body, mechanism.title or mechanism.name) if chosen.standalone else body)
+        title = result.mechanism.title or result.mechanism.name if result.mechanism else "Given equations"
+        print(document(body, title) if chosen.standalone else body)
     else:
         from singsym.output.text import classification_page
 

@@ -1,4 +1,4 @@
-"""The commands about singsym itself: engines.
+"""The commands about singsym itself: engines, completion.
 
 Source: singsym's own.
 """
@@ -9,6 +9,35 @@ import argparse
 from dataclasses import asdict
 
 from singsym.cli.screen import UserError, emit_data, emit_page, say
+
+_COMPLETION = """\
+{prelude}_singsym() {{
+    local words="{commands}"
+    if [ "$COMP_CWORD" -gt 1 ]; then
+        case "${{COMP_WORDS[1]}}" in
+{cases}
+        esac
+    fi
+    COMPREPLY=( $(compgen -W "$words" -- "${{COMP_WORDS[COMP_CWORD]}}") )
+}}
+complete -o default -F _singsym singsym
+"""
+
+
+def run_completion(chosen: argparse.Namespace) -> int:
+    """`singsym completion SHELL`: prints the script."""
+    from singsym.cli.parser import commands
+    from singsym.mechanism.library import names
+
+    mechanisms = " ".join(names())
+    cases = [
+        f'            {name}) words="{" ".join(options)}{" " + mechanisms if takes_mechanism else ""}" ;;'
+        for name, options, takes_mechanism in commands()
+    ]
+    prelude = "autoload -U +X bashcompinit && bashcompinit\n" if chosen.shell == "zsh" else ""
+    listed = " ".join(name for name, _, _ in commands())
+    print(_COMPLETION.format(prelude=prelude, commands=listed, cases="\n".join(cases)), end="")
+    return 0
 
 
 def run_engines(chosen: argparse.Namespace) -> int:

@@ -1,0 +1,83 @@
+"""The commands that write files to look at: plot, report.
+
+Source: figures and report are those of `singsym.output`.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from singsym.cli.mechanisms import placed, read
+from singsym.cli.screen import UserError
+from singsym.cli.singularities import UNDECIDED, classified
+
+if TYPE_CHECKING:
+    from singsym.classes.result import Classification
+    from singsym.output.plot_style import Picture
+
+
+def run_report(chosen: argparse.Namespace) -> int:
+    """`singsym report MECHANISM -o FILE`: prints the file's name."""
+    from singsym.output.report import report
+
+    path = Path(chosen.output or f"{Path(chosen.mechanism).stem}.html")
+    _writable(path)
+    result = classified(chosen)
+    try:
+        path.write_text(report(result), encoding="utf-8")
+    except OSError as error:
+        raise UserError(f"{path} cannot be written: {error.strerror}") from None
+    print(path)
+    return UNDECIDED if result.undecided else 0
+
+
+def run_plot(chosen: argparse.Namespace) -> int:
+    """`singsym plot MECHANISM`: the mechanism, a class, the curves or the strata; prints the file's name."""
+    path = Path(chosen.output or f"{Path(chosen.mechanism).stem}.svg")
+    _writable(path)
+    code = 0
+    try:
+        if chosen.shown is None:
+            from singsym.output.plot import plot_mechanism
+
+            mechanism = read(chosen)
+            picture = plot_mechanism(mechanism, equation=placed(mechanism, chosen.formulation))
+        else:
+            result = classified(chosen)
+            code = UNDECIDED if result.undecided else 0
+            picture = _picture(result, chosen.shown)
+        picture.save(path)
+    except ValueError as error:
+        raise UserError(str(error)) from None
+    except OSError as error:
+        raise UserError(f"{path} cannot be written: {error.strerror}") from None
+    print(path)
+    return code
+
+
+def _writable(path: Path) -> None:
+    """Say before the work starts that its result could not be written."""
+    if not path.absolute().parent.is_dir():
+        raise UserError(f"{path} cannot be written: there is no folder {path.parent}")
+
+
+def _picture(result: Classification, shown: str) -> Picture:
+    if shown == "strata":
+        from singsym.output.strata_graph import plot_strata
+
+        return plot_strata(result)
+    if shown.isdecimal():
+        from singsym.output.plot import plot_class
+
+        number = int(shown)
+        found = next((c for c in result.classes if c.singularity_class.number == number), None)
+        if found is None:
+            raise ValueError(f"there is no class {number}: the classes are numbered from 1 to 21")
+        if not found.witnesses:
+            raise ValueError(f"class {number} ({found.types}) has no configuration here: {found.verdict}")
+        return plot_class(result, found)
+    from singsym.output.plot_curves import plot_curves
+
+    return plot_curves(result, shown)
