@@ -25,7 +25,7 @@ from singsym.varieties.real.witness import RealSystem, Witness, find_witness
 from singsym.varieties.real.zerodim import NotZeroDimensional, real_points
 
 DIGITS = 15
-SEARCHES = 12
+SEARCHES = 300
 """Random starts in the search for a point of a set given by independent equations."""
 
 _BITS = 80
