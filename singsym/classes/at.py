@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 
 import sympy
 
-from singsym.classes.given import Given, Located, exact_values, locate, targets
+from singsym.classes.given import Given, Located, exact_values, is_feasible, locate, size, targets
 from singsym.classes.motions import Motion, null_motions
 from singsym.classes.types import Defects, SingularityClass, SingularityType, class_of
-from singsym.kinematics.sampling import NumericalSystem, numerical_matrix
+from singsym.kinematics.sampling import numerical_matrix
 from singsym.kinematics.velocity import VelocityEquation, velocity_equation
 from singsym.mechanism.model import Mechanism
 from singsym.mechanism.outputs import SLIDING
@@ -137,7 +137,7 @@ def at_equation(
         point = np.array([float(exact[name]) for name in equation.space.ring.names])
     else:
         located = locate(equation, wanted)
-        if located is None or located.misfit > 0.5 * _size(equation):
+        if located is None or located.misfit > 0.5 * size(equation):
             found = "values near which no configuration was reached"
             expected = "joint values, points or variables of a configuration"
             raise MechanismError([Problem("file", found, expected, file=file)])
@@ -267,14 +267,8 @@ def _report(matrix: Floats, threshold: float, exact: int | None, full: int) -> M
     rank = int((values > threshold * largest).sum()) if exact is None else exact
     below = float(values[rank]) if rank < len(values) else 0.0
     gap = float("inf") if rank == 0 or below <= 1e-300 else float(values[rank - 1]) / below
-    distance = float(values[full - 1]) / largest if 0 < full <= len(values) else 0.0
+    distance = float(values[full - 1]) / (largest or 1.0) if 0 < full <= len(values) else 0.0
     return MatrixReport(rank, full, tuple(map(float, values)), distance, gap)
-
-
-def _size(equation: VelocityEquation) -> float:
-    """A length to compare with: the root of the largest constant term of the loop equations."""
-    constants = [abs(e.constant) for e in equation.space.equations]
-    return max(1.0, *(float(int(c.p) / int(c.q)) ** 0.5 for c in constants)) if constants else 1.0
 
 
 def _characteristic_length(equation: VelocityEquation, point: Floats) -> float:
@@ -307,27 +301,18 @@ def _joint_values(equation: VelocityEquation, point: Floats) -> dict[str, float]
 
 
 def _remarks(equation: VelocityEquation, located: Located | None, point: Floats) -> list[str]:
-    import numpy as np
-
-    space = equation.space
-    size = len(space.ring.names)
     said = []
     if located is not None:
         if located.others and not located.open:
-            said.append(
-                f"{located.others} other configurations fit as well: give more values to tell them apart"
+            others = (
+                f"{located.others} other configuration{'s fit' if located.others > 1 else ' fits'} as well"
             )
+            said.append(f"{others}: give more values to tell them apart")
         if located.open:
-            said.append(
-                f"the given values leave {located.open} freedoms: one of many configurations is shown"
-            )
-        if located.misfit > 1e-2:
+            freedoms = f"{located.open} freedom{'s' if located.open > 1 else ''}"
+            said.append(f"the given values leave {freedoms}: one of many configurations is shown")
+        if located.misfit > 1e-2 * size(equation):
             said.append(f"no configuration is nearer than {located.misfit:.2g} to the given values")
-    signs = NumericalSystem((*space.positive, *space.nonnegative), size).values(point)
-    folded = any(
-        np.abs(NumericalSystem(group, size).values(point)).max(initial=0.0) < 1e-9
-        for group in space.exclusions
-    )
-    if (signs < -1e-9).any() or folded:
+    if not is_feasible(equation, point):
         said.append("the configuration is outside the feasible set (limits or exclusions)")
     return said

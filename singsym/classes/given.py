@@ -196,19 +196,19 @@ class _Problem:
         import numpy as np
 
         ring = equation.space.ring
-        size = len(ring.names)
-        self.loops = NumericalSystem((*equation.space.equations, *ring.relations), size)
-        self.sides = NumericalSystem([t.polynomial for t in wanted], size)
-        self.scales = NumericalSystem([t.scale for t in wanted], size)
+        names = len(ring.names)
+        self.loops = NumericalSystem((*equation.space.equations, *ring.relations), names)
+        self.sides = NumericalSystem([t.polynomial for t in wanted], names)
+        self.scales = NumericalSystem([t.scale for t in wanted], names)
         self.wanted = np.array([float(t.value) for t in wanted])
-        self.start = np.zeros(size)
+        self.start = np.zeros(names)
         fixed = set()
         for constant in ring.constants:
             index = ring.index(constant.name)
             self.start[index] = float(constant.expression)
             fixed.add(index)
-        self.free = [i for i in range(size) if i not in fixed]
-        self.size = size
+        self.free = [i for i in range(names) if i not in fixed]
+        self.extent = size(equation)
 
     def misfits(self, x: Floats) -> Floats:
         return self.sides.values(x) - self.wanted * self.scales.values(x)
@@ -225,41 +225,72 @@ class _Problem:
 
 
 def locate(equation: VelocityEquation, wanted: Sequence[Target], seed: int = 0) -> Located | None:
-    """The configuration nearest to the targets, from several starts; None where none was reached."""
+    """The configuration nearest to the targets, from several starts; None where none was reached.
+
+    Of those that are about as near, a feasible one.
+    """
     import numpy as np
 
     problem = _Problem(equation, wanted)
+    extent = size(equation)
     random = np.random.default_rng(seed)
-    spread = max(1.0, float(np.abs(problem.wanted).max(initial=1.0)))
-    ends: list[tuple[float, Floats]] = []
+    spread = max(extent, float(np.abs(problem.wanted).max(initial=0.0)))
+    ends: list[tuple[float, Floats, Floats]] = []
     for attempt in range(_STARTS):
         x = problem.start.copy()
         x[problem.free] = random.normal(size=len(problem.free)) * spread * (0.3, 1.0, 2.0)[attempt % 3]
-        x = _step_down(problem, x, 1.0)
-        given = _step_down(problem, x, None)
+        given = _step_down(problem, _step_down(problem, x, 1.0), None)
         end = _onto_loops(problem, given)
         if end is not None:
-            ends.append((float(np.abs(problem.misfits(end)).max(initial=0.0)), np.stack([given, end])))
+            ends.append((float(np.abs(problem.misfits(end)).max(initial=0.0)), given, end))
     if not ends:
         return None
-    ends.sort(key=lambda pair: pair[0])
-    best, (given, point) = ends[0]
+    least = min(misfit for misfit, _, _ in ends)
+    near = [e for e in ends if e[0] <= max(1e-7 * extent, 1.5 * least)]
+    near = [e for e in near if is_feasible(equation, e[2])] or near
+    misfit, given, point = min(near, key=lambda e: e[0])
     alike: list[Floats] = [point]
-    for cost, (_, other) in ends[1:]:
-        fits = cost <= max(1e-7, 1.5 * best)
-        if fits and all(np.abs(other - seen).max() > max(1e-4, 4 * best) for seen in alike):
+    for _, _, other in near:
+        if all(np.abs(other - seen).max() > max(1e-4 * extent, 4 * least) for seen in alike):
             alike.append(other)
     _, slopes = problem.both(point, 1.0)
     singular = np.linalg.svd(slopes, compute_uv=False)
-    rank = int((singular > 1e-6 * max(1.0, singular[0])).sum())
+    rank = int((singular > 1e-6 * float(singular[0])).sum())
     return Located(
         tuple(map(float, point)),
         float(np.abs(problem.loops.values(given)).max(initial=0.0)),
         float(np.abs(problem.loops.values(point)).max(initial=0.0)),
         float(np.abs(point - given).max(initial=0.0)),
-        best,
+        misfit,
         len(alike) - 1,
         len(problem.free) - rank,
+    )
+
+
+def size(equation: VelocityEquation) -> float:
+    """A length to compare with: the root of the largest constant term of the loop equations; 1 without any.
+
+    >>> from singsym.kinematics.velocity import velocity_equation
+    >>> from singsym.mechanism import load
+    >>> size(velocity_equation(load("slider-crank")))
+    3.0
+    """
+    constants = [abs(e.constant) for e in equation.space.equations]
+    return max((float(int(c.p) / int(c.q)) ** 0.5 for c in constants if c), default=1.0)
+
+
+def is_feasible(equation: VelocityEquation, point: Floats) -> bool:
+    """Whether limits and exclusions allow a point, in floats."""
+    import numpy as np
+
+    space = equation.space
+    names = len(space.ring.names)
+    signs = NumericalSystem((*space.positive, *space.nonnegative), names).values(point)
+    if (signs < -1e-9 * size(equation)).any():
+        return False
+    return all(
+        np.abs(NumericalSystem(group, names).values(point)).max(initial=0.0) > 1e-9
+        for group in space.exclusions
     )
 
 

@@ -1,0 +1,216 @@
+"""What the commands print, and their exit codes: 0 decided, 3 undecided, 2 usage or bad input."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+from singsym.cli import main
+
+
+def data(capsys, *arguments):
+    assert main([*arguments, "--format", "json"]) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+@pytest.fixture(autouse=True)
+def own_cache(tmp_path, monkeypatch):
+    monkeypatch.setenv("SINGSYM_CACHE", str(tmp_path / "cache"))
+
+
+def test_list_names_the_library(capsys):
+    names = [m["name"] for m in data(capsys, "list")]
+    assert {"zlatanov-2dof", "zlatanov-hybrid", "puma560", "stewart-gough"} <= set(names)
+    assert main(["list"]) == 0
+    text = capsys.readouterr().out
+    assert all(name in text for name in names)
+
+
+def test_show_has_the_papers_block_pattern(capsys):
+    """(6) of the paper: 8 x 10, the zeros of the output rows and of the two loops."""
+    found = data(capsys, "show", "zlatanov-2dof")
+    assert (found["N"], found["n"]) == (8, 2)
+    assert [len(found["L"]), len(found["L"][0])] == [8, 10]
+    labels = [c["label"] for c in found["columns"]]
+    zero_in_first_loop = {"T.x", "T.y", "E", "F", "G"}
+    for row, entries in zip(found["rows"], found["L"], strict=True):
+        if row.startswith("loop 1"):
+            assert all(e == "0" for c, e in zip(labels, entries, strict=True) if c in zero_in_first_loop)
+
+
+def test_show_writes_a_file_that_can_be_read_again(capsys, tmp_path):
+    assert main(["show", "zlatanov-2dof", "--format", "toml"]) == 0
+    path = tmp_path / "again.toml"
+    path.write_text(capsys.readouterr().out)
+    assert main(["check", str(path)]) == 0
+    assert "No problem found" in capsys.readouterr().out
+
+
+def test_conditions_of_the_linkage_are_the_papers(capsys):
+    """Section 3.3: (vii) BCD or CGF collinear, (viii) ABC, CDG or EFG collinear."""
+    found = {c["label"]: c for c in data(capsys, "conditions", "zlatanov-2dof")["conditions"]}
+    words = {
+        label: {f["words"] for a in found[label]["alternatives"] for f in a} for label in ("vii", "viii")
+    }
+    assert words["vii"] == {"B, C, D collinear", "C, F, G collinear"}
+    assert words["viii"] == {"A, B, C collinear", "C, D, G collinear", "E, F, G collinear"}
+
+
+@pytest.mark.parametrize(("n", "count"), [(1, 9), (2, 19), (3, 21), (6, 21)])
+def test_classes_counts_table_1(capsys, n, count):
+    assert len(data(capsys, "classes", "--n", str(n))["classes"]) == count
+    assert main(["classes", "--n", str(n)]) == 0
+    assert f"The {count} classes" in capsys.readouterr().out
+
+
+def test_classify_the_slider_crank(capsys):
+    """Two dead centres, where the crank is in line with the rod: (RI, IO)."""
+    found = data(capsys, "classify", "slider-crank", "--workers", "1")
+    there = {tuple(c["types"]): c["points"] for c in found["classes"] if c["verdict"] == "yes"}
+    assert there == {("RI", "IO"): 2}
+    assert len(found["classes"]) == 21
+    assert main(["classify", "slider-crank", "--workers", "1"]) == 0
+    assert "impossible for n = 1" in capsys.readouterr().out
+
+
+def test_solve_prints_pieces(capsys):
+    found = data(capsys, "solve", "slider-crank", "5", "vi", "i", "--workers", "1")["solutions"]
+    assert [s["condition"] for s in found] == ["5", "vi", "i"]
+    assert [s["dimension"] for s in found] == [0, -1, 0]
+    assert main(["solve", "slider-crank", "5", "--workers", "1"]) == 0
+    assert "for instance" in capsys.readouterr().out
+
+
+def test_at_a_dead_centre(capsys, tmp_path):
+    path = tmp_path / "dead.toml"
+    path.write_text("[points]\nB = [1, 0]\nC = [4, 0]\n")
+    found = data(capsys, "at", "slider-crank", "--config", str(path))
+    assert found["exact"]
+    assert found["types"] == ["RI", "IO"]
+    assert main(["at", "slider-crank", "--config", str(path)]) == 0
+    assert "class 1 (RI, IO)" in capsys.readouterr().out
+
+
+def test_new_writes_a_file_once(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", "mine"]) == 0
+    assert capsys.readouterr().out.strip() == "mine.toml"
+    assert main(["check", "mine.toml"]) == 0
+    assert main(["new", "mine"]) == 2
+    assert "there already" in capsys.readouterr().err
+    assert main(["new", "mine", "--force"]) == 0
+    assert main(["new", "../mine"]) == 2
+
+
+def test_plot_and_report_write_files(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main(["plot", "slider-crank", "-o", "m.svg"]) == 0
+    assert main(["plot", "slider-crank", "--class", "1", "-o", "c.png", "--workers", "1"]) == 0
+    assert main(["report", "slider-crank", "--workers", "1"]) == 0
+    assert capsys.readouterr().out.split() == ["m.svg", "c.png", "slider-crank.html"]
+    assert (tmp_path / "m.svg").read_text().lstrip().startswith("<?xml")
+    assert (tmp_path / "c.png").read_bytes().startswith(b"\x89PNG")
+    assert main(["plot", "slider-crank", "--class", "4", "-o", "c.png", "--workers", "1"]) == 2
+    assert main(["plot", "slider-crank", "-o", "none/c.png"]) == 2
+
+
+def test_set_changes_a_parameter_within_its_range(capsys):
+    assert data(capsys, "show", "zlatanov-hybrid", "--set", "a=3/2")["parameters"] == []
+    for setting in ("a=3", "b=1", "a", "a=__import__('os')"):
+        assert main(["show", "zlatanov-hybrid", "--set", setting]) == 2
+        assert capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "x = [",
+        "[links]\n",
+        'inputs = ["Z"]\noutput = {rate = "Q"}\n[links]\nground = 1\n[joints]\nA = "R"',
+    ],
+)
+def test_bad_files_end_with_a_paragraph(capsys, tmp_path, text):
+    path = tmp_path / "bad.toml"
+    path.write_text(text)
+    for command in ("check", "conditions", "classify", "show"):
+        assert main([command, str(path)]) == 2
+        captured = capsys.readouterr()
+        assert captured.out == ""
+        assert "bad.toml" in captured.err
+        assert "Traceback" not in captured.err
+
+
+def test_missing_files_and_binary_configurations(capsys, tmp_path):
+    assert main(["check", "no-such-thing"]) == 2
+    assert "no-such-thing" in capsys.readouterr().err
+    assert main(["check", str(tmp_path / "no.urdf")]) == 2
+    (tmp_path / "c.toml").write_bytes(b"\xff\xfe\x00")
+    assert main(["at", "fourbar", "--config", str(tmp_path / "c.toml")]) == 2
+    assert main(["at", "fourbar", "--config", str(tmp_path)]) == 2
+    (tmp_path / "d.toml").write_text("[joints]\nQ = 1")
+    assert main(["at", "fourbar", "--config", str(tmp_path / "d.toml")]) == 2
+    assert "expected one of A, B, C, D" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["nonsense"],
+        ["classes", "--n", "0"],
+        ["solve", "fourbar", "ix"],
+        ["classify", "fourbar", "--budget", "-1"],
+    ],
+)
+def test_usage_errors(arguments, capsys):
+    with pytest.raises(SystemExit) as stop:
+        main(arguments)
+    assert stop.value.code == 2
+    assert "usage: singsym" in capsys.readouterr().err
+
+
+def test_a_budget_too_small_is_undecided(capsys):
+    arguments = ["classify", "zlatanov-2dof", "--budget", "0.001", "--workers", "1", "--no-cache"]
+    assert main([*arguments, "--format", "json"]) == 3
+    found = json.loads(capsys.readouterr().out)
+    assert {c["verdict"] for c in found["classes"]} >= {"undecided"}
+    assert main(arguments) == 3
+    assert "Undecided" in capsys.readouterr().out
+
+
+def test_help_fits_a_screen_and_engines_are_listed(capsys):
+    with pytest.raises(SystemExit):
+        main(["--help"])
+    assert len(capsys.readouterr().out.splitlines()) <= 48
+    assert {e["name"] for e in data(capsys, "engines")} == {"flint", "msolve", "singular", "sympy"}
+
+
+def test_completion_is_valid_shell(capsys):
+    assert main(["completion", "bash"]) == 0
+    script = capsys.readouterr().out
+    assert "zlatanov-2dof" in script
+    assert subprocess.run(["bash", "-n"], input=script, text=True, check=False).returncode == 0
+
+
+def run(*arguments, **options):
+    return subprocess.run(
+        [sys.executable, "-m", "singsym", *arguments], capture_output=True, text=True, check=False, **options
+    )
+
+
+def test_a_closed_pipe_is_no_error():
+    command = f"{sys.executable} -m singsym list | head -n 1"
+    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False)
+    assert done.stderr == ""
+
+
+def test_the_commands_that_need_no_solver_load_none():
+    """Cold start: what takes long to import stays out until it is needed."""
+    code = (
+        "import sys; from singsym.cli import main; main(['conditions', 'zlatanov-2dof']); "
+        "print([m for m in ('matplotlib', 'rich', 'numpy', 'scipy') if m in sys.modules],"
+        " file=sys.stderr)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.stderr.strip() == "[]"

@@ -1,0 +1,36 @@
+"""Pages of text."""
+
+from singsym.classes.classify import classify
+from singsym.kinematics.velocity import velocity_equation
+from singsym.mechanism import load
+from singsym.output.page import Grid, plain
+from singsym.output.pieces import grouped, moving
+from singsym.output.text import classification_page, mechanism_page, polynomial_text
+from singsym.polynomials import Ring
+
+
+def test_columns_are_aligned_and_nothing_trails():
+    text = plain((Grid(("a", "b"), (("long cell", "1"), ("", "22")), "T"),))
+    assert text.splitlines() == ["T", "a          b", "---------  --", "long cell  1", "           22"]
+
+
+def test_long_polynomials_are_cut_with_a_count():
+    x, y = Ring(("x", "y")).gens
+    assert polynomial_text((x + y + 1) ** 3, 4).endswith("... (6 more terms)")
+    assert polynomial_text((x + y + 1) ** 3, 10).count(" + ") == 9
+
+
+def test_a_long_matrix_is_announced_not_printed():
+    mechanism = load("ur5")
+    page = mechanism_page(mechanism, velocity_equation(mechanism))
+    assert any(isinstance(block, str) and "too long to print" in block for block in page)
+
+
+def test_pieces_of_a_class_are_gathered_and_fixed_points_left_out():
+    result = classify(load("slider-crank"), cache=False)
+    (dead,) = [c for c in result.classes if c.verdict.is_yes]
+    groups = grouped(dead.pieces, result.loci)
+    assert sum(g.points for g in groups) == 2
+    names = {name.partition(".")[0] for name in moving(dead.witnesses[0].points, result.equation)}
+    assert names == {"B", "C"}
+    assert "Engines: flint" in plain(classification_page(result))
