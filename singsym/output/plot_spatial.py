@@ -44,7 +44,7 @@ def draw_spatial(
     middle, half = (points.min(axis=0) + points.max(axis=0)) / 2, 0.58 * size
     axes.set(xlim=(middle[0] - half, middle[0] + half), ylim=(middle[1] - half, middle[1] + half))
     axes.set(zlim=(middle[2] - half, middle[2] + half))
-    axes.set_box_aspect((1, 1, 1), zoom=1.25 if scene.space is Space.SPHERICAL else 1.5)
+    axes.set_box_aspect((1, 1, 1), zoom=1.25)
 
 
 def _body(axes: Any, body: Body) -> None:
