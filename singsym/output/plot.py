@@ -113,10 +113,11 @@ def _drawn(stage: Stage, point: Floats, motions: Sequence[Motion], title: str, d
 
         draw_spatial(axes, scene, moving)
     figure.suptitle(title, fontsize=12, color=INK)
+    line = 0.22 / figure.get_figheight()
+    figure.get_layout_engine().set(rect=(0, line * len(motions), 1, 1 - line * len(motions)))
     for row, motion in enumerate(motions):
-        figure.text(
-            0.02, 0.02 + 0.04 * row, f"→ {WORDS[motion.type]}", fontsize=8.5, color=MOTION[str(motion.type)]
-        )
+        colour, place = MOTION[str(motion.type)], (0.02, line * (row + 0.3))
+        figure.text(*place, f"→ {WORDS[motion.type]}", fontsize=8.5, color=colour)
     return Picture(figure, title, description)
 
 
