@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import combinations
+from itertools import combinations, islice
 
 from singsym.kinematics.nonzero import Certifier
 from singsym.polynomials import Polynomial
@@ -78,6 +78,10 @@ class PointNames:
     def recognise(self, polynomial: Polynomial) -> GeometricName | None:
         """The name of a factor; None where none of the determinants of named points is it."""
         wanted = self.certifier.normal_form(polynomial).primitive()
+        square = self.certifier.normal_form(wanted * wanted).primitive()
+        for value, name in self._lengths:
+            if value == square:
+                return name
         for value, name in self._candidates:
             if value == wanted:
                 return name
@@ -85,6 +89,18 @@ class PointNames:
             if wanted.divides(value) and self.certifier.reason(value.exact_quotient(wanted)) is not None:
                 return name
         return None
+
+    @cached_property
+    def _lengths(self) -> tuple[tuple[Polynomial, GeometricName], ...]:
+        """Squared distances in space: a polynomial whose square is one vanishes exactly where it does."""
+        if len(next(iter(self._points.values()), ())) != 3:
+            return ()
+        found = []
+        for vector, name in self._on_lines():
+            normal = self.certifier.normal_form(_dot(vector, vector))
+            if not normal.is_constant:
+                found.append((normal.primitive(), name))
+        return tuple(found)
 
     @cached_property
     def _candidates(self) -> tuple[tuple[Polynomial, GeometricName], ...]:
@@ -103,6 +119,26 @@ class PointNames:
             a, b = _subtract(q, p), _subtract(r, p)
             yield a[0] * b[1] - a[1] * b[0], _determinant(names, "collinear")
 
+    def _on_lines(self) -> Iterator[tuple[Vector, GeometricName]]:
+        """Vectors that vanish where three points are in line, or a point is on an axis through another."""
+        names = sorted(self._points, key=lambda n: (sum(map(len, self._points[n])), n))
+        axes = {n: tuple(v) for n, v in sorted(self.certifier.space.directions.items())}
+        for triple in islice(combinations(names, 3), MANY // 10):
+            first, *others = (self._points[name] for name in triple)
+            a, b = (_subtract(other, first) for other in others)
+            if sum(len(e) for e in (*a, *b)) < 24:
+                p, q, r = triple
+                latex = r" \times ".join(rf"\overrightarrow{{{_symbol(p)}{_symbol(x)}}}" for x in (q, r))
+                words = f"{', '.join(sorted(triple))} collinear"
+                yield _cross(a, b), GeometricName(f"|{latex}|", f"|{p}{q} x {p}{r}|", words)
+        for base, other in islice(combinations(names, 2), MANY // 10):
+            away = _subtract(self._points[other], self._points[base])
+            for u, axis in axes.items():
+                if sum(len(e) for e in (*away, *axis)) < 24:
+                    latex = rf"\overrightarrow{{{_symbol(base)}{_symbol(other)}}} \times {_symbol(u)}"
+                    words = f"{other} on the axis {u} through {base}"
+                    yield _cross(away, axis), GeometricName(f"|{latex}|", f"|{base}{other} x {u}|", words)
+
     def _spatial(self) -> Iterator[tuple[Polynomial, GeometricName]]:
         count = 0
         axes = {n: tuple(v) for n, v in sorted(self.certifier.space.directions.items())}
@@ -117,6 +153,12 @@ class PointNames:
                 latex = rf"\overrightarrow{{{_symbol(p)}{_symbol(q)}}} \cdot {_symbol(u)}"
                 words = f"{p}{q} perpendicular to axis {u}"
                 yield _dot(difference, axes[u]), GeometricName(latex, f"{p}{q}.{u}", words)
+        for triple in islice(combinations(axes, 3), MANY // 10):
+            one, two, three = (axes[name] for name in triple)
+            if sum(len(e) for e in (*one, *two, *three)) < 24:
+                latex = rf"\det[{', '.join(map(_symbol, triple))}]"
+                words = f"axes {', '.join(triple[:2])} and {triple[2]} parallel to a plane"
+                yield _dot(one, _cross(two, three)), GeometricName(latex, f"det[{' '.join(triple)}]", words)
         for names in combinations(sorted(self._points), 4):
             if (count := count + 1) > MANY:
                 return

@@ -72,6 +72,7 @@ _WORDS = {
     "-": "<mo>−</mo>",
     r"\det": "<mi>det</mi>",
     r"\cdot": "<mo>·</mo>",
+    r"\times": "<mo>×</mo>",
     r"\,": '<mspace width="0.2em"/>',
 }
 
@@ -79,7 +80,7 @@ _WORDS = {
 def name(latex: str) -> str:
     """The name of a determinant or product, as `elimination.geometry` writes it, as MathML elements.
 
-    Commands: det, cdot, overrightarrow, mathrm, indices in braces.
+    Commands: det, cdot, times, overrightarrow, mathrm, indices in braces.
 
     >>> name(r"S_{B}")
     '<msub><mi>S</mi><mrow><mi>B</mi></mrow></msub>'
