@@ -22,7 +22,7 @@ Vector = tuple[Polynomial, ...]
 
 @dataclass(frozen=True)
 class GeometricName:
-    """How a factor is written and what its vanishing says."""
+    """How a factor is written, up to a constant, and what its vanishing says."""
 
     latex: str
     text: str
@@ -130,14 +130,17 @@ class PointNames:
                 p, q, r = triple
                 latex = r" \times ".join(rf"\overrightarrow{{{_symbol(p)}{_symbol(x)}}}" for x in (q, r))
                 words = f"{', '.join(sorted(triple))} collinear"
-                yield _cross(a, b), GeometricName(f"|{latex}|", f"|{p}{q} x {p}{r}|", words)
+                yield _cross(a, b), GeometricName(rf"\pm|{latex}|", f"±|{p}{q} x {p}{r}|", words)
         for base, other in islice(combinations(names, 2), MANY // 10):
             away = _subtract(self._points[other], self._points[base])
             for u, axis in axes.items():
                 if sum(len(e) for e in (*away, *axis)) < 24:
                     latex = rf"\overrightarrow{{{_symbol(base)}{_symbol(other)}}} \times {_symbol(u)}"
                     words = f"{other} on the axis {u} through {base}"
-                    yield _cross(away, axis), GeometricName(f"|{latex}|", f"|{base}{other} x {u}|", words)
+                    yield (
+                        _cross(away, axis),
+                        GeometricName(rf"\pm|{latex}|", f"±|{base}{other} x {u}|", words),
+                    )
 
     def _spatial(self) -> Iterator[tuple[Polynomial, GeometricName]]:
         count = 0

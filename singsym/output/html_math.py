@@ -73,6 +73,7 @@ _WORDS = {
     r"\det": "<mi>det</mi>",
     r"\cdot": "<mo>·</mo>",
     r"\times": "<mo>×</mo>",
+    r"\pm": "<mo>±</mo>",
     r"\,": '<mspace width="0.2em"/>',
 }
 
@@ -80,7 +81,7 @@ _WORDS = {
 def name(latex: str) -> str:
     """The name of a determinant or product, as `elimination.geometry` writes it, as MathML elements.
 
-    Commands: det, cdot, times, overrightarrow, mathrm, indices in braces.
+    Commands: det, cdot, times, pm, overrightarrow, mathrm, indices in braces.
 
     >>> name(r"S_{B}")
     '<msub><mi>S</mi><mrow><mi>B</mi></mrow></msub>'

@@ -42,11 +42,14 @@ def draw_planar(
         if mark.joint.kind is not JointKind.P:
             axes.plot(*mark.place, "o", ms=6.5, mfc=PAPER, mec=INK, mew=1.3, zorder=6)
     _roles(axes, scene, size)
-    if names:
-        _names(axes, scene, size)
     reached = [scene.all_points]
+    arrows: list[tuple[Floats, Floats]] = []
     for motion, velocities in motions:
-        reached.append(_arrows(axes, scene, motion, velocities))
+        shown = _arrows(axes, scene, motion, velocities)
+        arrows += shown
+        reached += [tip.reshape(1, 2) for _, tip in shown]
+    if names:
+        _names(axes, scene, arrows)
     _margins(axes, np.concatenate(reached), 0.17 * size)
 
 
@@ -170,8 +173,9 @@ def _roles(axes: Any, scene: Scene, size: float) -> None:
         axes.plot(*place, "D", ms=6, mfc=OUTPUT, mec=INK, mew=1, zorder=7)
 
 
-def _names(axes: Any, scene: Scene, size: float) -> None:
-    """The names of points, those of one place together, away from the links that meet there."""
+def _names(axes: Any, scene: Scene, arrows: Sequence[tuple[Floats, Floats]]) -> None:
+    """The names of points, those of one place together, away from the links and arrows that meet there."""
+    size = scene.size
     groups: list[tuple[Floats, list[str]]] = []
     for name, place in scene.names.items():
         known = next((g for p, g in groups if float(np.abs(p - place).max()) < 0.02 * size), None)
@@ -182,7 +186,7 @@ def _names(axes: Any, scene: Scene, size: float) -> None:
     for place, group in groups:
         turned = any(_is_turned(m) and float(np.abs(m.place - place).max()) < 1e-6 for m in scene.marks)
         reach = (0.115 if turned else 0.075) * size
-        away = _free_direction(scene, place, reach)
+        away = _free_direction(scene, place, reach, arrows)
         label = ", ".join(sorted(n.partition(".")[2] or n for n in group))
         spot = place + reach * away
         axes.annotate(label, spot, ha="center", va="center", fontsize=11, color=INK, zorder=9)
@@ -193,9 +197,11 @@ def _is_turned(mark: Mark) -> bool:
     return (mark.active or mark.output) and mark.joint.kind is not JointKind.P
 
 
-def _free_direction(scene: Scene, place: Floats, reach: float) -> Floats:
-    """The direction in which a label is farthest from links, grounds and sliders."""
-    segments = []
+def _free_direction(
+    scene: Scene, place: Floats, reach: float, arrows: Sequence[tuple[Floats, Floats]]
+) -> Floats:
+    """The direction in which a label is farthest from links, grounds, sliders and arrows."""
+    segments = list(arrows)
     for body in scene.bodies:
         if not body.ground:
             corners = outline(body.places) if len(body.places) > 2 else body.places
@@ -225,8 +231,8 @@ def _distance(p: Floats, a: Floats, b: Floats) -> float:
     return float(np.linalg.norm(p - a - t * d))
 
 
-def _arrows(axes: Any, scene: Scene, motion: Motion, velocities: Velocities) -> Floats:
-    """Velocities of the points as arrows, the longest about a quarter of the figure; their tips, as rows."""
+def _arrows(axes: Any, scene: Scene, motion: Motion, velocities: Velocities) -> list[tuple[Floats, Floats]]:
+    """Velocities of the points as arrows, the longest about a quarter of the figure; their ends."""
     shown: list[tuple[Floats, Floats]] = []
     for body in scene.bodies:
         for name, place in body.points.items():
@@ -234,7 +240,7 @@ def _arrows(axes: Any, scene: Scene, motion: Motion, velocities: Velocities) -> 
             if all(np.abs(place - p).max() + np.abs(v - w).max() > 1e-7 for p, w in shown):
                 shown.append((place, v))
     fastest = max((float(np.linalg.norm(v)) for _, v in shown), default=0.0)
-    tips: list[Floats] = []
+    drawn: list[tuple[Floats, Floats]] = []
     for place, v in shown if fastest > 1e-9 else ():
         if float(np.linalg.norm(v)) > 1e-3 * fastest:
             tip = place + v * (0.25 * scene.size / fastest)
@@ -246,8 +252,8 @@ def _arrows(axes: Any, scene: Scene, motion: Motion, velocities: Velocities) -> 
                 "shrinkB": 0,
             }
             axes.annotate("", tip, place, arrowprops=style, zorder=10, annotation_clip=False)
-            tips.append(tip)
-    return np.array(tips).reshape(len(tips), 2)
+            drawn.append((place, tip))
+    return drawn
 
 
 def _margins(axes: Any, points: Floats, margin: float) -> None:

@@ -175,20 +175,37 @@ class Stage:
             for o in self.mechanism.outputs
             if not isinstance(o, JointRate) and (o.link, o.point) in placed
         ]
-        bodies = tuple(
-            Body(
-                link.name,
-                {name: p for (owner, name), p in placed.items() if owner == link.name},
-                frozenset(name for owner, name in self._held if owner == link.name),
-                link.name == self.mechanism.ground,
-                link.name in moved,
-            )
-            for link in self.mechanism.links
-        )
         marks = tuple(
             m for j in self.mechanism.joints if (m := self._mark(j, placed, screws, dimension)) is not None
         )
+        links = [link.name for link in self.mechanism.links]
+        held = {name: self._points_of(name, placed, marks) for name in links}
+        bodies = tuple(
+            Body(
+                name,
+                held[name],
+                self._corners(name, held[name]),
+                name == self.mechanism.ground,
+                name in moved,
+            )
+            for name in links
+        )
         return Scene(self.mechanism.space, bodies, marks, names, tuple(outputs))
+
+    def _points_of(
+        self, link: str, placed: Mapping[tuple[str, str], Floats], marks: tuple[Mark, ...]
+    ) -> dict[str, Floats]:
+        """The points of a link; in a spherical mechanism those where its axes meet the unit sphere."""
+        if self.mechanism.space is Space.SPHERICAL:
+            joints = [m for m in marks if link in (m.joint.first, m.joint.second)]
+            return {m.joint.name: m.direction for m in joints if m.direction is not None}
+        return {name: p for (owner, name), p in placed.items() if owner == link}
+
+    def _corners(self, link: str, points: Mapping[str, Floats]) -> frozenset[str]:
+        """The names of those of its points that are at joints."""
+        if self.mechanism.space is Space.SPHERICAL:
+            return frozenset(points)
+        return frozenset(name for owner, name in self._held if owner == link)
 
     def _screw_rows(self, point: Floats) -> dict[str, Floats]:
         rows = self._screws.values(point).reshape(len(self._columns), -1)

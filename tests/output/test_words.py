@@ -16,7 +16,7 @@ def words(name: str, label: str) -> list[str]:
 
 
 def test_the_hybrid_chain_in_the_papers_words() -> None:
-    """Section 5.3, steps 2, 4, 5: a point on its first axis, legs extended, C0 in ABC, A in the plane of B."""
+    """Section 5.3, steps 2, 4, 5: points on first axes, legs extended, C0 in ABC, A in the plane of B."""
     on_axis = [f"{leg} on the axis up through {leg}0" for leg in "ABC"]
     extended = [f"{leg}, {leg}0, K{leg} collinear" for leg in "ABC"]
     assert words("zlatanov-hybrid", "5") == sorted([*on_axis, *extended])
