@@ -60,6 +60,7 @@ figcaption, .note { color: var(--faint); font-size: .92rem; }
 .class { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(22rem, 100%), 1fr)); gap: 0 2rem; }
 .class > * { min-width: 0; } .figures { display: flex; flex-wrap: wrap; gap: 1rem; }
 .figures > figure { flex: 1 1 24rem; min-width: 0; }
+.broad svg { min-width: 44rem; }
 math { font-size: 1.05em; } .formula { overflow-x: auto; padding: .2rem 0; }
 mtr.labels { color: var(--faint); font-size: .8em; }
 .motion svg { display: block; width: 100%; max-width: 40rem; } .motion input { width: min(30rem, 90%); }
@@ -90,8 +91,11 @@ def page(title: str, body: str, script: str = "") -> str:
     )
 
 
-def figure(picture: Picture, key: str, caption: str = "") -> str:
-    """A picture inline: its colours follow the page, its ids begin with `key`, it is described in words."""
+def figure(picture: Picture, key: str, caption: str = "", *, broad: bool = False) -> str:
+    """A picture inline: its colours follow the page, its ids begin with `key`, it is described in words.
+
+    broad: it scrolls on a narrow screen, and is not made smaller.
+    """
     svg = picture.svg()
     svg = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.DOTALL)
     svg = re.sub(r'\bid="', f'id="{key}-', svg)
@@ -101,7 +105,14 @@ def figure(picture: Picture, key: str, caption: str = "") -> str:
     described = f'role="img" aria-label="{escape(picture.description, quote=True)}"'
     svg = svg.replace("<svg ", f"<svg {described} ", 1)
     below = f"<figcaption>{escape(caption)}</figcaption>" if caption else ""
+    if broad:
+        svg = f"{_scroll(picture.title, 'wide broad')}{svg}</div>"
     return f"<figure>{svg}{below}</figure>"
+
+
+def _scroll(label: str, style: str = "wide") -> str:
+    """The start of a part that scrolls by itself, also by keyboard."""
+    return f'<div class="{style}" tabindex="0" role="region" aria-label="{escape(label, quote=True)}">'
 
 
 def table(headers: Sequence[str], rows: Sequence[tuple[str, Sequence[str]]], label: str) -> str:
@@ -111,5 +122,4 @@ def table(headers: Sequence[str], rows: Sequence[tuple[str, Sequence[str]]], lab
         f'<tr class="{style}">' + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
         for style, cells in rows
     )
-    scroll = f'<div class="wide" tabindex="0" role="region" aria-label="{escape(label, quote=True)}">'
-    return f"{scroll}<table><thead><tr>{head}</tr></thead><tbody>{lines}</tbody></table></div>"
+    return f"{_scroll(label)}<table><thead><tr>{head}</tr></thead><tbody>{lines}</tbody></table></div>"

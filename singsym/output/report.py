@@ -210,7 +210,10 @@ def _piece(classification: Classification, piece: Piece) -> str:
     for f in dict.fromkeys(factors):
         words = classification.loci[place[f]].words if f in place else ""
         unequal.append(f"not {escape(words)}" if words else math.formula(math.equation(f, "≠", 8)))
-    several = [e for e in piece.exclusions if len(e) > 1]
+    groups = [e for e in piece.exclusions if len(e) > 1]
+    said = [[classification.loci[place[f]].words if f in place else "" for f in group] for group in groups]
+    unequal += [f"not ({escape(' and '.join(words))})" for words in said if all(words)]
+    several = [words for words in said if not all(words)]
     if several:
         unequal.append(f"{len(several)} group{'s' if len(several) > 1 else ''} of minors not all zero")
     text = " and ".join(lines) or "everywhere"
@@ -290,7 +293,7 @@ def _strata(classification: Classification) -> str:
     missing = graph.graph["undecided"]
     if missing:
         caption += f" {missing} comparisons were not finished and their arrows are missing."
-    return html.figure(plot_strata(classification, graph), "strata-graph", caption)
+    return html.figure(plot_strata(classification, graph), "strata-graph", caption, broad=True)
 
 
 # -- equations and proofs ------------------------------------------------------------------------------
