@@ -173,7 +173,11 @@ def _joint(value: JointValue, box: tuple[arb, ...]) -> arb | None:
     if value.square is not None:
         return evaluate(value.square, box).sqrt()
     if value.cosine is not None and value.sine is not None:
-        return arb.atan2(evaluate(value.sine, box), evaluate(value.cosine, box))
+        sine, cosine = evaluate(value.sine, box), evaluate(value.cosine, box)
+        if cosine < 0 and sine.contains(0):
+            # atan2 jumps here between pi and -pi, and its ball would hold both
+            return arb.pi() + arb.atan2(-sine, -cosine)
+        return arb.atan2(sine, cosine)
     return None
 
 
