@@ -12,30 +12,40 @@ from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from singsym.classes.explore import Branch, Exploration, SingularLoci, search
+from singsym.classes.explore import Branch, Equations, Exploration, Loci, SingularLoci, search
 from singsym.classes.realise import Counted, CurveTask, Names, RealTask, count, realise
 from singsym.classes.result import Classification, ClassResult, Locus, Piece, SpacePiece
 from singsym.classes.steps import excluded_in, found_in
-from singsym.classes.strata import RankProblem
+from singsym.classes.strata import RankProblem, union_of_loci
 from singsym.classes.types import SingularityClass, SingularityType, feasible_classes
 from singsym.classes.work import Cache, Runner, cache_folder, processes
 from singsym.elimination import engines
+from singsym.elimination.budget import Budget
 from singsym.elimination.conditions import Conditions, Factor, conditions, polynomial_latex
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.verdict import Verdict
 from singsym.kinematics.reduction import reduce
 from singsym.kinematics.velocity import VelocityEquation, velocity_equation
 from singsym.mechanism.model import Mechanism
+from singsym.minors.blocks import easy_columns
+from singsym.minors.determinant import determinant
 from singsym.polynomials import Polynomial
 from singsym.varieties.real.witness import RealSystem
+
+EASY_MINORS = 40
+"""So many minors of a large block are used to enclose the locus where it loses rank."""
 
 
 @dataclass(frozen=True)
 class Limits:
-    """What each task of a classification may use: seconds and megabytes, None without limit."""
+    """What a classification may use, None without limit.
 
-    seconds: float | None = None
+    seconds, memory_mb: of each task (a branch, a stratum, a curve); total: seconds of the search for strata.
+    """
+
+    seconds: float | None = 60.0
     memory_mb: int | None = None
+    total: float | None = 600.0
 
 
 def classify(
@@ -118,7 +128,9 @@ class _Work:
         for name in ("L", "L_I", "L_O", "L_p"):
             parts = self.conditions.rank_blocks(name)
             blocks[name], constants[name] = parts.blocks, parts.constant
-        return RankProblem(blocks, constants, self.equation.N, self.equation.n)
+        matrices = {name: self.conditions.matrix(name) for name in blocks}
+        eliminated = self.conditions.reduction.constant
+        return RankProblem(matrices, eliminated, blocks, constants, self.equation.N, self.equation.n)
 
     def classification(self, started: float) -> Classification:
         root = Branch(
@@ -128,7 +140,7 @@ class _Work:
             seconds=self.limits.seconds,
             memory_mb=self.limits.memory_mb,
         )
-        explored = search(root, self.runner, self._singular_loci())
+        explored = search(root, self.runner, self._singular_loci(), Budget(self.limits.total))
         tasks = [
             RealTask(found, self.feasible, self.names, self.limits.seconds, self.limits.memory_mb)
             for found in explored.found
@@ -149,15 +161,37 @@ class _Work:
 
     def _singular_loci(self) -> SingularLoci | None:
         """The alternatives of (4), (5), (iii) and (vi), where they are known and not everything."""
-        found = []
-        for label in ("4", "5", "iii", "vi"):
-            condition = self.conditions[label]
-            known = condition.alternatives is not None and not condition.everywhere
-            found.append(condition.polynomials if known else None)
+        found = [self._alternatives(label) for label in ("4", "5", "iii", "vi")]
         inputs, outputs, passive, mobility = found
         if inputs is None or outputs is None:
             return None
+        N, n = self.equation.N, self.equation.n
+        if passive is None:
+            passive = self._outer_locus("L_p", N - n)
+        if mobility is None:
+            mobility = self._outer_locus("L", N)
         return SingularLoci(inputs, outputs, passive, mobility)
+
+    def _alternatives(self, label: str) -> Loci | None:
+        condition = self.conditions[label]
+        if condition.alternatives is None or condition.everywhere:
+            return None
+        return condition.polynomials
+
+    def _outer_locus(self, name: str, rank: int) -> Loci | None:
+        """A closed set that holds all configurations where the rank is lower: zeros of easy minors."""
+        parts = self.conditions.rank_blocks(name)
+        if rank != parts.constant + sum(block.shape[0] for block in parts.blocks):
+            return None
+        found: list[Equations] = []
+        for block in parts.blocks:
+            minors = tuple(
+                determinant(block.select(columns=columns)) for columns in easy_columns(block)[:EASY_MINORS]
+            )
+            if not any(minors):
+                return None
+            found += union_of_loci(tuple(m for m in minors if m), self.conditions.certifier)
+        return tuple(dict.fromkeys(found))
 
     # -- loci ----------------------------------------------------------------------------------------
 

@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from singsym.classes.strata import Ground, RankProblem, Stratum, stratum
+from singsym.classes.patches import Patch, patches
+from singsym.classes.strata import Ground, NotEvident, RankProblem, Samples, Stratum, patch_stratum, stratum
 from singsym.classes.types import Defects
 from singsym.classes.work import Runner
-from singsym.elimination.budget import Budget, Undecided
-from singsym.elimination.ideal import Ideal
+from singsym.elimination.budget import Budget, BudgetExceeded, Undecided
 from singsym.polynomials import Polynomial
 from singsym.varieties.decomposition import Component, decompose
 from singsym.varieties.real.emptiness import is_empty_over_reals
@@ -21,6 +21,8 @@ from singsym.varieties.real.witness import RealSystem
 from singsym.varieties.real.zerodim import real_points
 
 Equations = tuple[Polynomial, ...]
+STARTS = 60
+"""Random starts for numerical points of a set."""
 
 
 @dataclass(frozen=True)
@@ -72,53 +74,76 @@ class Exploration:
 
 
 def explore(branch: Branch) -> Explored:
-    """Decompose one branch and find the ranks on each component: the task that workers run.
+    """Take one branch apart and find the ranks on each part: the task that workers run.
 
-    Components without a feasible real point are left out.
+    Parts without a feasible real point are left out.
     """
     feasible = branch.feasible
     nonzero = [*(e[0] for e in feasible.exclusions if len(e) == 1), *feasible.positive]
-    strata = []
+    strata: list[Stratum] = []
     try:
         with Budget(branch.seconds, branch.memory_mb):
-            for component in decompose((*branch.path, *branch.equations), nonzero, ring=feasible.ring):
-                samples = _samples(component, feasible)
-                if samples is not None:
-                    strata.append(stratum(branch.problem, Ground(component, samples)))
+            for patch in patches((*branch.path, *branch.equations), nonzero, feasible.ring):
+                strata += _patch_strata(branch, patch, nonzero)
     except Undecided as reason:
         return Explored((), str(reason))
     return Explored(tuple(strata))
 
 
-def _samples(component: Component, feasible: RealSystem) -> tuple[tuple[float, ...], ...] | None:
+def _patch_strata(branch: Branch, patch: Patch, nonzero: Sequence[Polynomial]) -> Iterator[Stratum]:
+    """The stratum of a patch as it stands; where that is not evident, those of its components."""
+    feasible = branch.feasible
+    if any(all(patch.restrict(g).is_zero for g in group) for group in feasible.exclusions):
+        return
+    independent = len(patch.generators) + len(feasible.ring.relations) < len(feasible.ring.names)
+    found = numerical_points(feasible, patch.generators) if independent else ()
+    if found:
+        try:
+            yield patch_stratum(branch.problem, patch, feasible, found)
+            return
+        except NotEvident:
+            pass
+    for component in decompose(patch.generators, nonzero, ring=feasible.ring):
+        samples = _samples(component, feasible)
+        if samples is not None:
+            yield stratum(branch.problem, Ground(component, samples))
+
+
+def _samples(component: Component, feasible: RealSystem) -> Samples | None:
     """Real points of a component, numerical ones that only guide; None where it is proven to have none."""
     if any(all(component.vanishes(g) for g in group) for group in feasible.exclusions):
         return None
     if component.dimension == 0:
         points = [p for p in real_points(component.ideal) if feasible.admits(p)]
         return tuple(p.floats for p in points) or None
-    found = numerical_points(component.ideal)
+    found = numerical_points(feasible, component.generators)
     if not found and is_empty_over_reals(replace(feasible, equations=component.generators)).is_yes:
         return None
     return found
 
 
-def numerical_points(ideal: Ideal, count: int = 3) -> tuple[tuple[float, ...], ...]:
-    """Real points near V(ideal), as many as are found quickly; they guide, they prove nothing."""
+def numerical_points(feasible: RealSystem, equations: Equations, count: int = 3) -> Samples:
+    """Real points near the zeros of the equations and off the exclusions, as many as are found quickly."""
     import numpy
 
     from singsym.varieties.real.search import Compiled, gauss_newton
 
-    compiled = Compiled((*ideal.generators, *ideal.ring.relations), ideal.ring)
+    ring = feasible.ring
+    compiled = Compiled((*equations, *ring.relations), ring)
     random = numpy.random.default_rng(0)
     found: list[tuple[float, ...]] = []
-    for _ in range(8 * count):
-        start = random.normal(size=len(ideal.ring.names)) * 2
-        for constant in ideal.ring.constants:
-            start[ideal.ring.index(constant.name)] = float((constant.low + constant.high) / 2)
+    for _ in range(STARTS):
+        start = random.normal(size=len(ring.names)) * 2
+        for constant in ring.constants:
+            start[ring.index(constant.name)] = float((constant.low + constant.high) / 2)
         x = gauss_newton(compiled, start)
-        if x is not None:
-            found.append(tuple(map(float, x)))
+        if x is None:
+            continue
+        point = tuple(map(float, x))
+        if all(any(abs(g.evaluate(point)) > 1e-6 for g in group) for group in feasible.exclusions) and all(
+            p.evaluate(point) > -1e-9 for p in (*feasible.positive, *feasible.nonnegative)
+        ):
+            found.append(point)
         if len(found) == count:
             break
     return tuple(found)
@@ -141,11 +166,14 @@ class SingularLoci:
     mobility: Loci | None = None
 
 
-def search(root: Branch, runner: Runner, singular: SingularLoci | None = None) -> Exploration:
+def search(
+    root: Branch, runner: Runner, singular: SingularLoci | None = None, budget: Budget | None = None
+) -> Exploration:
     """All strata of a branch, level by level; every level's branches are independent tasks.
 
     singular: where known, the strata that need no search are written down at once, as steps (4)-(6) of the
         paper do, and only {1} and {2} are searched, or where these are not known, (4) and (5) together.
+    budget: of the whole search; what is left when it is used up comes back unexplored.
     The result does not depend on the runner's executor: branches keep their order.
     """
     found: dict[Equations, Found] = {}
@@ -158,7 +186,11 @@ def search(root: Branch, runner: Runner, singular: SingularLoci | None = None) -
     level = 0
     while frontier:
         level += 1
-        results = runner.map(explore, frontier, f"strata, level {level}")
+        try:
+            results = runner.map(explore, frontier, f"strata, level {level}", budget)
+        except BudgetExceeded as reason:
+            unexplored += [(branch, str(reason)) for branch in frontier]
+            break
         following: list[Branch] = []
         for branch, explored in zip(frontier, results, strict=True):
             if explored.undecided:
@@ -200,7 +232,8 @@ def _to_search(singular: SingularLoci) -> list[Equations]:
     """Closed sets that together hold all configurations of type IIM or RPM."""
     if singular.passive is None or singular.mobility is None:
         return _intersections(singular.inputs, singular.outputs)
-    return list(dict.fromkeys((*singular.passive, *singular.mobility)))
+    paths = dict.fromkeys((*singular.passive, *singular.mobility))
+    return [path for path in paths if not any(set(other) < set(path) for other in paths)]
 
 
 def _intersections(one: Loci, two: Loci) -> list[Equations]:

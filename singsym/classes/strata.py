@@ -14,10 +14,18 @@ from dataclasses import dataclass
 from itertools import combinations
 from math import comb
 
+from singsym.classes.patches import Patch
 from singsym.classes.types import Defects
+from singsym.elimination.budget import Undecided
+from singsym.kinematics.nonzero import Certifier
+from singsym.kinematics.placement import ConfigurationSpace
+from singsym.minors.blocks import easy_columns
 from singsym.minors.determinant import determinant
+from singsym.minors.factored import factored
+from singsym.minors.rank import alternatives, rank_blocks
 from singsym.polynomials import Polynomial, PolynomialMatrix
 from singsym.varieties.decomposition import Component
+from singsym.varieties.real.witness import RealSystem
 
 ALL_MINORS = 24
 """Up to this many minors of a block, its rank locus is written with all of them."""
@@ -27,10 +35,13 @@ ALL_MINORS = 24
 class RankProblem:
     """The four matrices of a mechanism, each split into blocks whose ranks add.
 
+    matrices: `L L_I L_O L_p` of the reduced velocity equation, with ranks lower by `eliminated`.
     blocks: for each of `L L_I L_O L_p` the blocks of a matrix with the same rank up to `constants`.
     N, n: the number of 1-DOF joints and the mobility.
     """
 
+    matrices: Mapping[str, PolynomialMatrix]
+    eliminated: int
     blocks: Mapping[str, tuple[PolynomialMatrix, ...]]
     constants: Mapping[str, int]
     N: int
@@ -74,37 +85,65 @@ class Stratum:
         return tuple(seen)
 
 
+Samples = tuple[tuple[float, ...], ...]
+"""Numerical real points of a set: they guide the choice of minors, they prove nothing."""
+
+
+class NotEvident(Undecided):
+    """A polynomial seems to vanish on a set, and substitution alone does not show it."""
+
+
 @dataclass(frozen=True)
 class Ground:
-    """Where ranks are asked for: V(ideal), with numerical real points on it to guess from."""
+    """Where ranks are asked for: a component, with points on it to guess from."""
 
     component: Component
-    samples: tuple[tuple[float, ...], ...] = ()
+    samples: Samples = ()
 
     def vanishes(self, polynomial: Polynomial) -> bool:
-        """Whether a polynomial is zero on V(ideal), where True is proven and False may be a guess.
+        """Whether a polynomial is zero on the component, where True is proven and False may be a guess.
 
-        A wrong False is harmless: it only makes a stratum empty and sends V(ideal) down as a locus again.
+        A wrong False is harmless: it only makes a stratum empty and sends its closure down as a locus again.
         """
         ideal = self.component.ideal
         if ideal.contains(polynomial):
             return True
-        if self.component.prime or any(self._is_large(polynomial, x) for x in self.samples):
+        if self.component.prime or is_large(polynomial, self.samples):
             return False
         return ideal.radical_contains(polynomial)
 
-    def _is_large(self, polynomial: Polynomial, x: tuple[float, ...]) -> bool:
-        value = abs(polynomial.evaluate(x))
-        return bool(value > 1e-6 * max(abs(float(c.p) / float(c.q)) for _, c in polynomial.terms()))
 
-    def start(self, block: PolynomialMatrix) -> tuple[tuple[int, ...], tuple[int, ...]]:
-        """Rows and columns of a minor that is as large as the numerical rank at the samples."""
-        best: tuple[tuple[int, ...], tuple[int, ...]] = ((), ())
-        for x in self.samples:
-            found = pivots([[float(e) for e in row] for row in block.evaluate(x)])
-            if len(found[0]) > len(best[0]):
-                best = found
-        return best
+@dataclass(frozen=True)
+class PatchGround:
+    """The same on a patch, where only what substitution and the circles show is known to vanish."""
+
+    patch: Patch
+    certifier: Certifier
+    samples: Samples
+
+    def vanishes(self, polynomial: Polynomial) -> bool:
+        """Whether a polynomial is zero on the patch; raises `NotEvident` where it seems to be, unproven."""
+        if self.certifier.normal_form(self.patch.restrict(polynomial)).is_zero:
+            return True
+        if is_large(polynomial, self.samples):
+            return False
+        raise NotEvident("a minor seems to vanish on a part of the configuration space")
+
+
+def is_large(polynomial: Polynomial, samples: Samples) -> bool:
+    """Whether a polynomial is certainly not small at one of the points, relative to its coefficients."""
+    size = max((abs(float(c.p) / float(c.q)) for _, c in polynomial.terms()), default=0.0)
+    return any(abs(polynomial.evaluate(x)) > 1e-6 * size for x in samples)
+
+
+def _start(block: PolynomialMatrix, samples: Samples) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Rows and columns of a minor that is as large as the numerical rank at the samples."""
+    best: tuple[tuple[int, ...], tuple[int, ...]] = ((), ())
+    for x in samples:
+        found = pivots([[float(e) for e in row] for row in block.evaluate(x)])
+        if len(found[0]) > len(best[0]):
+            best = found
+    return best
 
 
 def _bordered(
@@ -118,7 +157,7 @@ def _bordered(
                 yield tuple(sorted((*rows, i))), tuple(sorted((*columns, j)))
 
 
-def block_rank(block: PolynomialMatrix, ground: Ground) -> BlockRank:
+def block_rank(block: PolynomialMatrix, ground: Ground | PatchGround) -> BlockRank:
     """The rank of a matrix on V(ideal) minus the common zeros of the minors returned.
 
     Grows a nonvanishing minor border by border until all bordering minors vanish (lemma above); of several
@@ -132,7 +171,7 @@ def block_rank(block: PolynomialMatrix, ground: Ground) -> BlockRank:
     >>> block_rank(PolynomialMatrix.of(R, [[x, y], [x, y]]), Ground(line))
     BlockRank(rank=1, minors=(x,))
     """
-    rows, columns = ground.start(block)
+    rows, columns = _start(block, ground.samples)
     last = determinant(block.select(rows, columns)) if rows else None
     if last is not None and ground.vanishes(last):
         rows, columns, last = (), (), None
@@ -159,7 +198,7 @@ def _weight(minor: Polynomial) -> tuple[int, int]:
 
 
 def _locus(
-    block: PolynomialMatrix, ground: Ground, rows: tuple[int, ...], columns: tuple[int, ...]
+    block: PolynomialMatrix, ground: Ground | PatchGround, rows: tuple[int, ...], columns: tuple[int, ...]
 ) -> tuple[Polynomial, ...]:
     """r-minors whose common zeros on V(ideal) contain the locus of lower rank: all where they are few."""
     r = len(rows)
@@ -170,6 +209,8 @@ def _locus(
             for i in combinations(range(block.shape[0]), r)
             for j in combinations(range(block.shape[1]), r)
         ]
+    elif r == block.shape[0] and (easy := easy_columns(block)):
+        choices = [(rows, c) for c in easy[:ALL_MINORS]]
     else:
         choices = [(rows, columns), *_swapped(block.shape, rows, columns)]
     minors: dict[Polynomial, None] = {}
@@ -237,6 +278,46 @@ def stratum(problem: RankProblem, ground: Ground) -> Stratum:
     defects = problem.defects(ranks)
     component = ground.component
     return Stratum(component.generators, defects, {name: loci[name] for name in relevant(defects)}, component)
+
+
+def patch_stratum(problem: RankProblem, patch: Patch, feasible: RealSystem, samples: Samples) -> Stratum:
+    """The same for a patch: the matrices are taken apart anew with the solved variables put in.
+
+    A locus of lower rank is a union of common zeros of factors of minors, each a locus of its own.
+    """
+    groups = (tuple(map(patch.restrict, group)) for group in feasible.exclusions)
+    space = ConfigurationSpace(
+        feasible.ring,
+        patch.rest,
+        tuple(g for g in groups if any(g)),
+        tuple(map(patch.restrict, feasible.positive)),
+    )
+    ground = PatchGround(patch, Certifier(space), samples)
+    ranks: dict[str, int] = {}
+    loci: dict[str, tuple[tuple[Polynomial, ...], ...]] = {}
+    for name, matrix in problem.matrices.items():
+        parts = rank_blocks(matrix.map(patch.restrict), ground.certifier)
+        found = [block_rank(block, ground) for block in parts.blocks]
+        ranks[name] = parts.constant + problem.eliminated + sum(block.rank for block in found)
+        loci[name] = tuple(e for block in found for e in union_of_loci(block.minors, ground.certifier))
+    defects = Defects.of_ranks(ranks["L"], ranks["L_I"], ranks["L_O"], ranks["L_p"], problem.N, problem.n)
+    return Stratum(patch.generators, defects, {name: loci[name] for name in relevant(defects)})
+
+
+def union_of_loci(minors: tuple[Polynomial, ...], certifier: Certifier) -> tuple[tuple[Polynomial, ...], ...]:
+    """The common zeros of minors as a union of common zeros of factors that are not proved nonzero."""
+    products = []
+    for minor in minors:
+        parts = factored((minor,), certifier)
+        if parts.vanishes:
+            continue
+        if not parts.factors:
+            return ()
+        products.append(parts.polynomials)
+    if not products:
+        return ()
+    found = alternatives(tuple(products), certifier)
+    return (tuple(minors),) if found is None else found
 
 
 def pivots(matrix: list[list[float]]) -> tuple[tuple[int, ...], tuple[int, ...]]:

@@ -12,7 +12,7 @@ import os
 import pickle
 import sys
 import tempfile
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence, Sized
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, as_completed
 from fractions import Fraction
 from pathlib import Path
@@ -20,6 +20,7 @@ from types import TracebackType
 from typing import Any, TypeVar
 
 from singsym.elimination import engines, progress
+from singsym.elimination.budget import Budget
 from singsym.polynomials import Polynomial, Ring
 
 T = TypeVar("T")
@@ -122,8 +123,12 @@ class Runner:
     executor: Executor | None = None
     cache: Cache | None = None
 
-    def map(self, function: Callable[[T], R], tasks: Sequence[T], stage: str) -> list[R]:
+    def map(
+        self, function: Callable[[T], R], tasks: Sequence[T], stage: str, budget: Budget | None = None
+    ) -> list[R]:
         """The results in the order of the tasks, whatever order they finish in.
+
+        Raises `BudgetExceeded` where a task is finished after the time; what is done is in the cache.
 
         >>> Runner().map(abs, [-1, 2], "abs")
         [1, 2]
@@ -142,8 +147,9 @@ class Runner:
             for i in waiting:
                 self._keep(results, paths, i, function(tasks[i]))
                 progress.report(stage, done=len(results), total=len(tasks))
+                _check(budget, stage, results, tasks)
         else:
-            self._scatter(self.executor, function, tasks, waiting, results, paths, stage)
+            self._scatter(self.executor, function, tasks, waiting, results, paths, stage, budget)
         return [results[i] for i in range(len(tasks))]
 
     def _scatter(
@@ -155,6 +161,7 @@ class Runner:
         results: dict[int, R],
         paths: dict[int, Path],
         stage: str,
+        budget: Budget | None,
     ) -> None:
         allowed = engines.allowed()
         futures: dict[Future[R], int] = {
@@ -164,6 +171,7 @@ class Runner:
             for future in as_completed(futures):
                 self._keep(results, paths, futures[future], future.result())
                 progress.report(stage, done=len(results), total=len(tasks))
+                _check(budget, stage, results, tasks)
         finally:
             for future in futures:
                 future.cancel()
@@ -185,6 +193,11 @@ class _Processes(ProcessPoolExecutor):
             for child in multiprocessing.active_children():
                 child.terminate()
         super().__exit__(kind, error, trace)
+
+
+def _check(budget: Budget | None, stage: str, results: Sized, tasks: Sized) -> None:
+    if budget is not None and len(results) < len(tasks):
+        budget.check(stage)
 
 
 def processes(workers: int) -> Executor | None:

@@ -7,10 +7,12 @@ Source: A. L. Dulmage, N. S. Mendelsohn, "Coverings of bipartite graphs" (1958);
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
+from itertools import combinations, islice
 
 import networkx
 
-from singsym.polynomials import PolynomialMatrix
+from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
 
 Block = tuple[tuple[int, ...], tuple[int, ...]]
 
@@ -131,3 +133,70 @@ def diagonal_blocks(matrix: PolynomialMatrix) -> tuple[Block, ...]:
     graph = networkx.Graph()
     graph.add_edges_from((("row", i), ("column", j)) for i, j in _nonzeros(matrix))
     return tuple(sorted(_block(nodes) for nodes in networkx.connected_components(graph)))
+
+
+def sparser(matrix: PolynomialMatrix) -> PolynomialMatrix:
+    """The matrix after rational row operations that make it sparser: all its ranks by columns stay.
+
+    >>> x, y = Ring(("x", "y")).gens
+    >>> sparser(PolynomialMatrix.of(x.ring, [[x, 0], [2 * x, y]])).rows
+    ((x, 0), (0, y))
+    """
+    rows = [list(row) for row in matrix.rows]
+    changed = True
+    while changed:
+        changed = False
+        for i, row in enumerate(rows):
+            for k, other in enumerate(rows):
+                better = None if i == k else _combined(row, other)
+                if better is not None:
+                    rows[i] = row = better
+                    changed = True
+    return PolynomialMatrix(matrix.ring, tuple(map(tuple, rows)), matrix.width)
+
+
+def _combined(row: list[Polynomial], other: list[Polynomial]) -> list[Polynomial] | None:
+    """The row minus a rational multiple of the other that has more zeros, if there is one."""
+    zeros = sum(e.is_zero for e in row)
+    tried = set()
+    for a, b in zip(row, other, strict=True):
+        if a.is_zero or b.is_zero or a.primitive() != b.primitive():
+            continue
+        factor = a.terms()[0][1] / b.terms()[0][1]
+        if factor in tried:
+            continue
+        tried.add(factor)
+        candidate = [x - y * factor for x, y in zip(row, other, strict=True)]
+        if sum(e.is_zero for e in candidate) > zeros:
+            return candidate
+    return None
+
+
+EASY_BLOCK = 3
+"""Minors whose block triangular form has no larger diagonal block are easy to expand."""
+MOST_CHOICES = 1000
+"""Among more sets of columns than these, only the first are looked at."""
+
+
+def easy_columns(matrix: PolynomialMatrix) -> tuple[tuple[int, ...], ...]:
+    """Sets of as many columns as there are rows whose minors are products of small determinants.
+
+    >>> x, y = Ring(("x", "y")).gens
+    >>> easy_columns(PolynomialMatrix.of(x.ring, [[x, 0, y], [0, y, 0]]))
+    ((0, 1), (1, 2))
+    """
+    pattern = tuple(tuple(bool(e) for e in row) for row in matrix.rows)
+    return _easy_columns(pattern, matrix.width)
+
+
+@lru_cache(maxsize=256)
+def _easy_columns(pattern: tuple[tuple[bool, ...], ...], width: int) -> tuple[tuple[int, ...], ...]:
+    ring = Ring(("x",))
+    model = PolynomialMatrix.of(ring, [[int(e) for e in row] for row in pattern], width)
+    found = []
+    for columns in islice(combinations(range(width), len(pattern)), MOST_CHOICES):
+        form = block_triangular(model.select(columns=columns))
+        sizes = [len(rows) for rows, _ in form.square]
+        if sum(sizes) == len(pattern) and max(sizes, default=0) <= EASY_BLOCK:
+            found.append((sum(size**3 for size in sizes), columns))
+    return tuple(columns for _, columns in sorted(found))

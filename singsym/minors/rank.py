@@ -17,7 +17,7 @@ from flint import fmpq, fmpq_mat, nmod_mat
 
 from singsym.kinematics.nonzero import Certifier
 from singsym.kinematics.reduction import Elimination, reduce_submatrix
-from singsym.minors.blocks import diagonal_blocks
+from singsym.minors.blocks import diagonal_blocks, sparser
 from singsym.minors.determinant import maximal_minors
 from singsym.minors.factored import factored
 from singsym.polynomials import Polynomial, PolynomialMatrix
@@ -132,7 +132,8 @@ def rank_blocks(matrix: PolynomialMatrix, certifier: Certifier) -> RankBlocks:
     ([((-x*y,),), ((y,),)], 1)
     """
     reduced = reduce_submatrix(matrix, certifier)
-    blocks = tuple(reduced.matrix.select(rows, columns) for rows, columns in diagonal_blocks(reduced.matrix))
+    left = sparser(reduced.matrix.map(certifier.shorten))
+    blocks = tuple(left.select(rows, columns) for rows, columns in diagonal_blocks(left))
     return RankBlocks(matrix.shape, blocks, reduced.constant, reduced.record)
 
 

@@ -57,6 +57,8 @@ def test_defects_sum_blocks_and_constants() -> None:
     """N = 2, n = 1: L has a unit and the row (x y), L_I the row (x), L_O (y), L_p nothing."""
     row = PolynomialMatrix.of(R, [[x, y]])
     problem = RankProblem(
+        {},
+        0,
         {"L": (row,), "L_I": (row.select(columns=[0]),), "L_O": (row.select(columns=[1]),), "L_p": ()},
         {"L": 1, "L_I": 1, "L_O": 1, "L_p": 1},
         2,

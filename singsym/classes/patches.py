@@ -1,0 +1,141 @@
+"""Quick decomposition of equations by factoring and substituting alone, without Groebner bases.
+
+Source: the first steps of decomposition by splitting, see `varieties.decomposition`; here they are all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+from singsym.polynomials import Polynomial, Ring
+from singsym.varieties.splitting import factor_equations, irreducible_factors, linear_substitution
+
+MOST_PATCHES = 64
+
+
+@dataclass(frozen=True)
+class Patch:
+    """The common zeros of variable = value for each of `solved` and of `rest`, in the other variables."""
+
+    ring: Ring
+    solved: Mapping[str, Polynomial]
+    rest: tuple[Polynomial, ...]
+
+    @property
+    def generators(self) -> tuple[Polynomial, ...]:
+        """All equations, in a fixed order."""
+        equations = [self.ring.gen(name) - value for name, value in self.solved.items()]
+        return tuple(sorted((*equations, *self.rest), key=lambda p: (len(p), str(p))))
+
+    def restrict(self, polynomial: Polynomial) -> Polynomial:
+        """The polynomial with the solved variables put in."""
+        present = {n: v for n, v in self.solved.items() if n in polynomial.variables}
+        return polynomial.substitute(present) if present else polynomial
+
+
+def patches(equations: Iterable[Polynomial], nonzero: Sequence[Polynomial], ring: Ring) -> tuple[Patch, ...]:
+    """Patches that together hold all zeros of the equations off those of `nonzero`; none where that is seen.
+
+    >>> R = Ring(("x", "y", "z"))
+    >>> x, y, z = R.gens
+    >>> [p.generators for p in patches([x * y, x + z**2, z**2 - 1], [], R)]
+    [(y, x + 1, z + 1), (y, x + 1, z - 1)]
+    """
+    away = irreducible_factors(nonzero) or frozenset()
+    waiting: list[tuple[tuple[Polynomial, ...], dict[str, Polynomial]]] = [(tuple(equations), {})]
+    found: dict[frozenset[Polynomial], Patch] = {}
+    while waiting and len(waiting) + len(found) <= MOST_PATCHES:
+        current, solved = waiting.pop()
+        factored = factor_equations(current, away)
+        if factored is None:
+            continue
+        products = [f for f in factored if len(f) > 1]
+        single = [f[0] for f in factored if len(f) == 1]
+        if products:
+            chosen = min(products, key=lambda f: (len(f), sum(len(p) for p in f), str(f)))
+            others = [_product(f, ring) for f in products if f is not chosen]
+            waiting += [((*single, *others, p), solved) for p in reversed(chosen)]
+            continue
+        single = _shortened(single)
+        if len(set(single)) < len(factored) or any(len(p.factors()) > 1 for p in single):
+            waiting.append((tuple(single), solved))
+            continue
+        step = linear_substitution(single)
+        if step is None:
+            halves = _parallel(single)
+            if halves:
+                waiting += [((*single, *half), solved) for half in halves]
+                continue
+            patch = Patch(ring, solved, tuple(single))
+            found[frozenset(patch.generators)] = patch
+            continue
+        put = {step.name: step.value}
+        known = {n: v.substitute(put) for n, v in solved.items()} | {step.name: step.value}
+        waiting.append((tuple(p.substitute(put) for p in single), known))
+    left = [Patch(ring, solved, current) for current, solved in waiting]
+    return tuple(sorted((*found.values(), *left), key=lambda p: str(p.generators)))
+
+
+def _product(factors: Sequence[Polynomial], ring: Ring) -> Polynomial:
+    total = ring.one
+    for factor in factors:
+        total = total * factor
+    return total
+
+
+def _shortened(equations: Sequence[Polynomial]) -> list[Polynomial]:
+    """Equations with multiples of each other taken away wherever that leaves fewer terms."""
+    work = list(equations)
+    changed = True
+    while changed:
+        changed = False
+        for i, p in enumerate(work):
+            for q in work:
+                if q is p or not q:
+                    continue
+                candidate = _without(p, q)
+                if candidate is not None:
+                    work[i] = candidate
+                    changed = True
+                    break
+    return [p for p in work if p]
+
+
+def _without(p: Polynomial, q: Polynomial) -> Polynomial | None:
+    terms = dict(p.terms())
+    for monomial, c in q.terms():
+        own = terms.get(monomial)
+        if own is not None and any(monomial):
+            candidate = p - q * (own / c)
+            if len(candidate) < len(p):
+                return candidate.primitive() if candidate else candidate
+    return None
+
+
+def _parallel(equations: Sequence[Polynomial]) -> list[tuple[Polynomial, Polynomial]]:
+    """Two unit vectors, equal or opposite by an equation such as s1 c2 - c1 s2 = 0: both cases, linear.
+
+    On the circles c1 = c2 u - s2 v, s1 = s2 u + c2 v with u = c1 c2 + s1 s2, v = s1 c2 - c1 s2,
+    and u^2 + v^2 = 1.
+    """
+    circles = [pair for p in equations if (pair := _unit_circle(p)) is not None]
+    for p in equations:
+        if len(p) != 2 or p.total_degree != 2:
+            continue
+        for x1, y1 in circles:
+            for x2, y2 in circles:
+                if x1.variables == x2.variables:
+                    continue
+                for u, v in ((x2, y2), (x2, -y2), (y2, x2), (y2, -x2)):
+                    if (x1 * v - y1 * u).primitive() == p.primitive():
+                        return [(x1 - u, y1 - v), (x1 + u, y1 + v)]
+    return []
+
+
+def _unit_circle(p: Polynomial) -> tuple[Polynomial, Polynomial] | None:
+    """The two variables of x^2 + y^2 - 1."""
+    if len(p) != 3 or p.total_degree != 2 or len(p.variables) != 2:
+        return None
+    x, y = (p.ring.gen(name) for name in p.variables)
+    return (x, y) if p.primitive() == (x**2 + y**2 - 1).primitive() else None
