@@ -41,10 +41,12 @@ def draw_spatial(
     for motion, velocities in motions:
         _arrows(axes, scene, motion, velocities, size)
     points = scene.all_points if scene.space is not Space.SPHERICAL else np.array([[-1.15] * 3, [1.15] * 3])
-    middle, half = (points.min(axis=0) + points.max(axis=0)) / 2, 0.58 * size
-    axes.set(xlim=(middle[0] - half, middle[0] + half), ylim=(middle[1] - half, middle[1] + half))
-    axes.set(zlim=(middle[2] - half, middle[2] + half))
-    axes.set_box_aspect((1, 1, 1), zoom=1.25)
+    low, high = points.min(axis=0), points.max(axis=0)
+    # flat scenes keep some depth, or the view would be cut at arrows and axes
+    middle, half = (low + high) / 2, 0.56 * np.maximum(high - low, 0.4 * size)
+    axes.set(xlim=(middle[0] - half[0], middle[0] + half[0]), ylim=(middle[1] - half[1], middle[1] + half[1]))
+    axes.set(zlim=(middle[2] - half[2], middle[2] + half[2]))
+    axes.set_box_aspect(tuple(half), zoom=1.08)
 
 
 def _body(axes: Any, body: Body) -> None:
