@@ -221,9 +221,7 @@ class Polynomial:
             numerators = [(c * denominator).p for c in coefficients]
         else:
             numerators = [c.p for c in coefficients]
-        cleared = self.ring.integer_context.from_dict(
-            dict(zip(self.value.monoms(), numerators, strict=True))
-        )
+        cleared = self.ring.integer_context.from_dict(dict(zip(self.value.monoms(), numerators, strict=True)))
         if not numerators:
             return cleared
         _, primitive = cleared.primitive()

@@ -68,6 +68,7 @@ def test_determinantal_variety_is_prime() -> None:
     assert (found.prime, found.dimension) == (True, 4)
 
 
+@pytest.mark.engines
 def test_splitting_that_no_equation_shows() -> None:
     # x = y or x = -y for the square roots of 2; sqrt(6) is the product of sqrt(2) and sqrt(3).
     assert zeros(x**2 - 2, y**2 - 2, z) == bases((x**2 - 2, y - x, z), (x**2 - 2, y + x, z))
@@ -81,6 +82,7 @@ def test_splitting_that_no_equation_shows() -> None:
     assert {c.vanishes(u * t - v * s) for c in found} == {True, False}
 
 
+@pytest.mark.engines
 def test_constants_bring_their_relations() -> None:
     sqrt2 = AlgebraicConstant("r", (-2, 0, 1), Fraction(1), Fraction(2))
     sqrt3 = AlgebraicConstant("s", (-3, 0, 1), Fraction(1), Fraction(2))
