@@ -1,0 +1,115 @@
+"""Classification end to end on small mechanisms: verdicts, proofs, witnesses, the traps of components."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from singsym.classes.classify import Limits, classify
+from singsym.classes.result import Classification
+from singsym.classes.types import SingularityType, feasible_classes
+from singsym.elimination import engines
+from singsym.mechanism import JointRate, load
+
+T = SingularityType
+
+
+@pytest.fixture(scope="module")
+def crank_rocker() -> Classification:
+    return classify(load("fourbar"), cache=False)
+
+
+def test_all_21_classes_are_reported(crank_rocker: Classification) -> None:
+    assert [c.singularity_class for c in crank_rocker.classes] == list(feasible_classes())
+    assert all(c.verdict.is_yes or c.verdict.is_no for c in crank_rocker.classes)
+
+
+def test_classes_that_the_mobility_forbids_say_so(crank_rocker: Classification) -> None:
+    possible = set(feasible_classes(1))
+    for c in crank_rocker.classes:
+        assert ("impossible for n = 1" in c.verdict.reason) == (c.singularity_class not in possible)
+
+
+def test_witnesses_are_full_configurations(crank_rocker: Classification) -> None:
+    """Points and joint angles to 15 digits within the radius; lengths 4, 1, 7/2, 3 hold there."""
+    found = crank_rocker.of(T.RI | T.IO)
+    assert found.points == len(found.witnesses) == 4
+    for w in found.witnesses:
+        assert float(w.radius) < 1e-14
+        at = {n: complex(float(w.points[f"{n}.x"]), float(w.points[f"{n}.y"])) for n in "ABCD"}
+        lengths = [abs(at[p] - at[q]) for p, q in ("AB", "BC", "CD", "DA")]
+        assert lengths == pytest.approx([1, 3.5, 3, 4], abs=1e-13)
+        assert (at["C"] / at["B"]).imag == pytest.approx(0, abs=1e-13)
+        assert set(w.as_json()) >= {"B.x", "C.y", "radius"}
+
+
+def test_empty_classes_have_a_reason(crank_rocker: Classification) -> None:
+    dead = crank_rocker.of(T.RO | T.II)
+    assert dead.verdict.is_no
+    assert dead.verdict.reason
+
+
+def test_no_mobility_means_smooth(crank_rocker: Classification) -> None:
+    assert [s.smooth for s in crank_rocker.configuration_space] == ["yes"]
+    shaky = classify(load("parallelogram"), cache=False)
+    assert {s.smooth for s in shaky.configuration_space} == {"undecided"}
+
+
+def test_steps_of_the_procedure(crank_rocker: Classification) -> None:
+    """Section 3.2: no IIM after step 1, no RPM after 2, (RI, IO) divided off in 6."""
+    assert crank_rocker.of(T.RI | T.IO).steps == ("6",)
+    assert crank_rocker.of(T.RI | T.RO | T.IIM).steps == ("1",)
+    assert crank_rocker.of(T.RPM | T.II | T.IO).steps == ("2",)
+
+
+def test_conditions_are_printed(crank_rocker: Classification) -> None:
+    assert "x_{C}" in crank_rocker.of(T.RI | T.IO).conditions
+
+
+def test_mirror_images_are_other_configurations(crank_rocker: Classification) -> None:
+    found = {round(float(w.points["C.y"]), 9) for w in crank_rocker.of(T.RI | T.IO).witnesses}
+    assert found == {-y for y in found}
+
+
+def test_a_component_may_be_singular_everywhere() -> None:
+    """Four equal sides: with B on D the crank stands still and the rest turns, a whole circle of (RO, II)."""
+    result = classify(load("fourbar").with_parameters(g=1, a=1, b=1, c=1), cache=False)
+    assert not result.undecided
+    assert {c.types: c.dimension for c in result.classes if c.verdict.is_yes} == {
+        T.RO | T.II: 1,
+        T.RI | T.IO: 1,
+        T.RI | T.RO | T.IIM: 0,
+    }
+
+
+def test_the_output_at_the_input_is_never_transmission() -> None:
+    """With the crank's own rate as output, a dead centre leaves the rest a passive motion: (RPM, II, IO)."""
+    mechanism = load("fourbar").with_parameters(g=4, a=3, b=1, c="7/2")
+    result = classify(replace(mechanism, outputs=(JointRate("A"),)), cache=False)
+    assert {c.types: c.points for c in result.classes if c.verdict.is_yes} == {T.RPM | T.II | T.IO: 4}
+
+
+@pytest.mark.parametrize("name", ["fourbar", "parallelogram", "change-point", "slider-crank"])
+def test_flint_alone_comes_to_the_same(name: str) -> None:
+    """The base installation has no other engine."""
+    with engines.use("flint"):
+        alone = classify(load(name), cache=False)
+    both = classify(load(name), cache=False)
+    facts = [
+        [(c.types, c.verdict.answer, c.dimension, c.points) for c in result.classes]
+        for result in (alone, both)
+    ]
+    assert facts[0] == facts[1]
+    assert alone.engines == ("flint",)
+
+
+def test_too_small_a_budget_leaves_doubts_and_no_false_answers() -> None:
+    """With no time at all nothing is claimed beyond what needs none."""
+    hurried = classify(load("zlatanov-2dof"), limits=Limits(seconds=1e-3), cache=False)
+    assert hurried.undecided
+    for c in hurried.classes:
+        if c.verdict.is_undecided:
+            assert c.verdict.reason
+    rpm = hurried.of(T.RPM | T.II | T.IO)
+    assert not rpm.verdict.is_no

@@ -1,0 +1,134 @@
+"""The search for strata: its branches, and the same answer on every executor."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from singsym.classes import classify as module
+from singsym.classes.classify import classify
+from singsym.classes.explore import explore, numerical_points, split_product
+from singsym.classes.result import Classification
+from singsym.mechanism import load
+from singsym.polynomials import Ring
+from singsym.varieties.real.witness import RealSystem
+
+
+def plain(result: Classification) -> dict[str, object]:
+    """All that a classification says, without its time."""
+    return {key: value for key, value in result.as_json().items() if key != "seconds"}
+
+
+@pytest.fixture(scope="module")
+def reference() -> dict[str, object]:
+    return plain(classify(load("change-point"), cache=False))
+
+
+def test_powers_and_products_are_split() -> None:
+    x, y, z = Ring(("x", "y", "z")).gens
+    assert split_product(((x + y) ** 2 * z,)) in ([(x + y,), (z,)], [(z,), (x + y,)])
+    assert split_product((x * y, z)) == [(x * y, z)]
+
+
+def test_numerical_points_lie_on_the_set() -> None:
+    ring = Ring(("x", "y"))
+    x, y = ring.gens
+    found = numerical_points(RealSystem(ring, (), ()), (x**2 + y**2 - 4,))
+    assert len(found) == 3
+    assert all(abs(a * a + b * b - 4) < 1e-9 for a, b in found)
+
+
+def test_numerical_points_of_an_empty_set() -> None:
+    ring = Ring(("x",))
+    assert numerical_points(RealSystem(ring, (), ()), (ring.gens[0] ** 2 + 1,)) == ()
+
+
+def test_same_result_for_one_and_two_workers(reference: dict[str, object]) -> None:
+    assert plain(classify(load("change-point"), workers=2, cache=False)) == reference
+
+
+def test_same_result_on_threads(reference: dict[str, object]) -> None:
+    with ThreadPoolExecutor(2) as pool:
+        assert plain(classify(load("change-point"), executor=pool, cache=False)) == reference
+
+
+def test_same_result_on_a_dask_cluster(reference: dict[str, object]) -> None:
+    """A real LocalCluster: its client's executor is any other to the program."""
+    distributed = pytest.importorskip("distributed")
+    with (
+        distributed.LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None) as cluster,
+        distributed.Client(cluster) as client,
+        client.get_executor() as executor,
+    ):
+        assert plain(classify(load("change-point"), executor=executor, cache=False)) == reference
+
+
+def test_second_run_is_read_from_the_cache(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, reference: dict[str, object]
+) -> None:
+    """The tasks of the first run are found again, one by one; none is computed twice."""
+    monkeypatch.setenv("SINGSYM_CACHE", str(tmp_path))
+    assert plain(classify(load("change-point"))) == reference
+    stored = {path: path.stat().st_mtime_ns for path in tmp_path.iterdir()}
+    assert stored
+
+    def forbidden(*_: object) -> object:
+        raise AssertionError("computed again")
+
+    for name in ("realise", "count"):
+        known = getattr(module, name)
+        monkeypatch.setattr(module, name, _named(forbidden, known))
+    monkeypatch.setattr("singsym.classes.explore.explore", _named(forbidden, explore))
+    assert plain(classify(load("change-point"))) == reference
+    assert {path: path.stat().st_mtime_ns for path in tmp_path.iterdir()} == stored
+
+
+def _named(function: Callable[..., object], known: Callable[..., object]) -> Callable[..., object]:
+    """A function that the cache takes for another one."""
+
+    def stand_in(*arguments: object) -> object:
+        return function(*arguments)
+
+    stand_in.__module__, stand_in.__qualname__ = known.__module__, known.__qualname__
+    return stand_in
+
+
+class Interrupting(ThreadPoolExecutor):
+    """An executor that is interrupted after some tasks."""
+
+    def __init__(self, after: int) -> None:
+        super().__init__(1)
+        self.left = after
+
+    def submit(self, *arguments: object, **named: object):  # type: ignore[no-untyped-def,override]
+        self.left -= 1
+        if self.left < 0:
+            raise KeyboardInterrupt
+        return super().submit(*arguments, **named)  # type: ignore[arg-type]
+
+
+def test_an_interrupted_run_is_taken_up(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, reference: dict[str, object]
+) -> None:
+    monkeypatch.setenv("SINGSYM_CACHE", str(tmp_path))
+    with Interrupting(after=2) as pool, pytest.raises(KeyboardInterrupt):
+        classify(load("change-point"), executor=pool)
+    early = set(tmp_path.glob("*.pickle"))
+    assert plain(classify(load("change-point"))) == reference
+    assert early < set(tmp_path.glob("*.pickle"))
+
+
+def test_limits_leave_configurations_out() -> None:
+    """The slider-crank works on one side only; without that limit there are twice as many dead centres."""
+    mechanism = load("slider-crank")
+    everything = classify(mechanism, cache=False)
+    unlimited = classify(replace(mechanism, limits=()), cache=False)
+    counts = {
+        name: [c.points for c in result.classes if c.verdict.is_yes]
+        for name, result in (("limited", everything), ("unlimited", unlimited))
+    }
+    assert counts == {"limited": [2], "unlimited": [4]}
