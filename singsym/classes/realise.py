@@ -98,15 +98,14 @@ def realise(task: RealTask) -> Piece:
 def _given(piece: Piece, system: RealSystem, names: Names) -> Piece:
     """A set given by equations: where their gradients are independent at a point, a manifold near it."""
     dimension = len(system.ring.names) - len(system.closed_equations)
-    if dimension == 0:
+    if dimension <= 0:
         try:
             return _finite(piece, real_points(piece.basis), system, names)
         except NotZeroDimensional:
             return _positive(piece, real_dimension(system), names)
-    if dimension > 0:
-        witness = find_witness(system, dimension=dimension, tries=SEARCHES)
-        if witness is not None and independent(system.closed_equations, witness.point):
-            return _positive(piece, (dimension, witness), names)
+    witness = find_witness(system, dimension=dimension, tries=SEARCHES)
+    if witness is not None and independent(system.closed_equations, witness.point):
+        return _positive(piece, (dimension, witness), names)
     return _positive(piece, real_dimension(system), names)
 
 

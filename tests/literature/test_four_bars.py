@@ -46,7 +46,6 @@ def test_the_output_choice_matters(classified: Classified) -> None:
     result = classified(turned)
     assert not result.undecided
     found = {c.singularity_class.name: c for c in result.classes if c.verdict.is_yes}
-    # the coupler stands still where its pole is at infinity... seen from the crank: A, D and BC's pole in line
     in_line = [w for c in found.values() for w in c.witnesses if abs(_abc(w.floats())) < 1e-9]
     assert in_line == []
     follower = classified(four_bar("4", "1", "7/2", "3")).of(SingularityType.RI | SingularityType.IO)

@@ -67,17 +67,17 @@ def test_bennett_has_no_singularity(classified: Classified) -> None:
 
 
 def test_sarrus_configuration_space() -> None:
-    """Row 18: both legs rise together, in two ways; with both legs folded onto themselves they turn freely."""
+    """Row 18: both legs rise together, in two ways; folded onto themselves they turn freely."""
     space = velocity_equation(load("sarrus")).space
     parts = decompose(space.equations, ring=space.ring)
     assert sorted(part.dimension for part in parts) == [1, 1, 2]
 
 
 def test_sarrus_classes(classified: Classified) -> None:
-    """Row 18: where rank 4 or 3 replaces 5, there is IIM: on all of the folded component and where it is stretched.
+    """Row 18: where rank 4 or 3 replaces 5 there is IIM, on all of the folded component and where stretched.
 
-    By hand, with platform height z = 0 and legs at angles a, b: the platform's freedoms are rotations about the
-    x line A1 and the y line B1 (RPM: the output vz stays zero), unless a leg stands upright or lies flat.
+    Both legs folded turn at vz = 0, one of them with the input locked: RI, RPM; vz itself is impossible (IO)
+    unless both lie flat, where the platform may rise as well.
     """
     result = classified(load("sarrus"))
     assert not result.undecided
