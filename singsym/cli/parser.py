@@ -172,9 +172,8 @@ def _work(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--budget",
         type=_positive,
-        default=60.0,
         metavar="SECONDS",
-        help="for each part of the work, %(default)s by default; what takes longer is undecided",
+        help="for the search, a tenth for each part (default: 600); what takes longer is undecided",
     )
     command.add_argument(
         "--workers", type=_at_least_one, default=_workers(), help="processes (default: %(default)s)"

@@ -14,6 +14,7 @@ from singsym.cli.screen import UserError, emit_data, emit_page
 from singsym.mechanism import MechanismError
 
 if TYPE_CHECKING:
+    from singsym.classes.classify import Limits
     from singsym.classes.result import Classification
 
 UNDECIDED = 3
@@ -64,7 +65,7 @@ def run_classes(chosen: argparse.Namespace) -> int:
 
 def classified(chosen: argparse.Namespace) -> Classification:
     """The classification that the options ask for, with progress on stderr."""
-    from singsym.classes.classify import Limits, classify
+    from singsym.classes.classify import classify
     from singsym.cli.screen import progress_shown
     from singsym.elimination import engines
 
@@ -76,7 +77,7 @@ def classified(chosen: argparse.Namespace) -> Classification:
             mechanism,
             formulation=chosen.formulation,
             workers=chosen.workers,
-            limits=Limits(seconds=chosen.budget),
+            limits=_limits(chosen),
             cache=chosen.cache,
         )
 
@@ -101,7 +102,6 @@ def run_classify(chosen: argparse.Namespace) -> int:
 
 def run_solve(chosen: argparse.Namespace) -> int:
     """`singsym solve MECHANISM CONDITION ...`."""
-    from singsym.classes.classify import Limits
     from singsym.classes.solve import solve
     from singsym.cli.screen import progress_shown
     from singsym.elimination import engines
@@ -115,7 +115,7 @@ def run_solve(chosen: argparse.Namespace) -> int:
             *dict.fromkeys(chosen.labels),
             formulation=chosen.formulation,
             workers=chosen.workers,
-            limits=Limits(seconds=chosen.budget),
+            limits=_limits(chosen),
             cache=chosen.cache,
         )
     if chosen.format == "json":
@@ -132,6 +132,13 @@ def run_solve(chosen: argparse.Namespace) -> int:
 
         emit_page(solution_page(mechanism.name, found))
     return UNDECIDED if any(s.undecided for s in found) else 0
+
+
+def _limits(chosen: argparse.Namespace) -> Limits:
+    """The budget for the search, a tenth of it for each of its parts; the defaults without --budget."""
+    from singsym.classes.classify import Limits
+
+    return Limits() if chosen.budget is None else Limits(seconds=chosen.budget / 10, total=chosen.budget)
 
 
 def _resumable(chosen: argparse.Namespace) -> None:
