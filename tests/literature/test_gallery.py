@@ -256,3 +256,20 @@ def test_loci_are_pins_in_line(name: str, inputs: set[str], outputs: set[str]) -
     found = conditions(velocity_equation(load(name)))
     for label, expected in (("4", inputs), ("5", outputs)):
         assert {f.words for f in found[label].factors} == {f"{pins} collinear" for pins in expected}
+
+
+@pytest.mark.slow
+def test_peaucellier(classified: Classified) -> None:
+    """D on the line x = (OA^2 - AC^2) / 4 = 21/4 for OQ = QC = 2; off the folded rhombus nothing is singular.
+
+    OC runs from 3 (A on B, left out) over its largest value 4, where D's speed is that of the inversion.
+    """
+    equation = velocity_equation(load("peaucellier"))
+    place = equation.space.points["D"]
+    for point in sample_configurations(equation.space, 5, seed=8):
+        assert float(place[0].evaluate(list(point))) == pytest.approx(21 / 4, abs=1e-8)
+        defects = ranks(equation, point)
+        assert defects is None or not defects.types
+    result = classified(load("peaucellier"))
+    assert not result.undecided
+    assert all(c.verdict.is_no for c in result.classes)

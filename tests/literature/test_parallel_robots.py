@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
 import pytest
 
+from singsym.classes.result import Classification
 from singsym.elimination.conditions import conditions
 from singsym.elimination.ideal import Ideal
 from singsym.kinematics.placement import ConfigurationSpace
 from singsym.kinematics.sampling import numerical_matrix, sample_configurations
 from singsym.kinematics.velocity import VelocityEquation, velocity_equation
-from singsym.mechanism import load
+from singsym.mechanism import Mechanism, load
 from singsym.minors.determinant import determinant
 from singsym.polynomials import Polynomial, Ring
+from singsym.varieties.real.zerodim import real_points
 
 # a rational rotation about a general axis
 TURNED = {"q0": Fraction(1, 2), "q1": Fraction(1, 2), "q2": Fraction(1, 10), "q3": Fraction(7, 10)}
@@ -64,6 +67,42 @@ def test_3rpr_has_six_assemblies() -> None:
     ideal = Ideal(equation.space.ring, (*equation.space.equations, *legs))
     # the ring's square root counts twice
     assert ideal.vector_space_dimension == 2 * 6
+
+
+@pytest.mark.slow
+def test_six_cusps_of_the_3rpr() -> None:
+    """Row 11, Innocenti, Parenti-Castelli's slice at leg length 14.98: 6 cusps.
+
+    A cusp of the map (x, y, angle) -> (leg lengths): its determinant vanishes, and so does the determinant's
+    derivative along the kernel, which is the cross product of two gradients.
+    """
+    equation, locus = locus_of_3rpr()
+    ring = equation.space.ring
+    cosine, sine = ring.gen("c_platform"), ring.gen("s_platform")
+
+    def gradient(p: Polynomial) -> tuple[Polynomial, ...]:
+        turned = p.derivative("s_platform") * cosine - p.derivative("c_platform") * sine
+        return p.derivative("B1x"), p.derivative("B1y"), turned
+
+    squares = [p for p in (equation.values[f"P{i}"].square for i in (1, 2, 3)) if p is not None]
+    a, b, c = map(gradient, squares)
+    slope = gradient(locus)
+    along = [
+        slope[0] * (u[1] * v[2] - u[2] * v[1])
+        + slope[1] * (u[2] * v[0] - u[0] * v[2])
+        + slope[2] * (u[0] * v[1] - u[1] * v[0])
+        for u, v in ((a, b), (a, c), (b, c))
+    ]
+    slice_ = squares[0] - Fraction(1498, 100) ** 2
+    assert len(real_points([*equation.space.equations, slice_, locus, *along])) == 6
+
+
+def test_3rpr_has_type_2_only(classified: Callable[[Mechanism], Classification]) -> None:
+    """Row 11: legs that have a length can always be driven back, so det L_O has no zero and all is (RO, II)."""
+    result = classified(load("3rpr"))
+    assert not result.undecided
+    found = {c.singularity_class.name: c.dimension for c in result.classes if c.verdict.is_yes}
+    assert found == {"RO, II": 2}
 
 
 # -- row 12: Stewart-Gough -------------------------------------------------------------------------------
