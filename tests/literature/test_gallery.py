@@ -49,6 +49,8 @@ SMALLEST = {
 
 QUICK = [
     "2r",
+    "3prr",
+    "3rpr",
     "change-point",
     "crank-slotted-lever",
     "double-parallelogram",

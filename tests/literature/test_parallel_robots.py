@@ -98,7 +98,7 @@ def test_six_cusps_of_the_3rpr() -> None:
 
 
 def test_3rpr_has_type_2_only(classified: Callable[[Mechanism], Classification]) -> None:
-    """Row 11: legs that have a length can always be driven back, so det L_O has no zero and all is (RO, II)."""
+    """Row 11: legs that have a length can always be driven back, so that det L_O has no zero."""
     result = classified(load("3rpr"))
     assert not result.undecided
     found = {c.singularity_class.name: c.dimension for c in result.classes if c.verdict.is_yes}
