@@ -16,11 +16,11 @@ from singsym.classes.explore import Branch, Equations, Exploration, Loci, Singul
 from singsym.classes.realise import Counted, CurveTask, Names, RealTask, count, realise
 from singsym.classes.result import Classification, ClassResult, Locus, Piece, SpacePiece
 from singsym.classes.steps import excluded_in, found_in
-from singsym.classes.strata import RankProblem, union_of_loci
+from singsym.classes.strata import EASY_MINORS, RankProblem, union_of_loci
 from singsym.classes.types import SingularityClass, SingularityType, feasible_classes
 from singsym.classes.work import Cache, Runner, cache_folder, processes
 from singsym.elimination import engines
-from singsym.elimination.budget import Budget
+from singsym.elimination.budget import Budget, Undecided
 from singsym.elimination.conditions import Conditions, Factor, conditions, polynomial_latex
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.verdict import Verdict
@@ -32,8 +32,8 @@ from singsym.minors.determinant import determinant
 from singsym.polynomials import Polynomial
 from singsym.varieties.real.witness import RealSystem
 
-EASY_MINORS = 40
-"""So many minors of a large block are used to enclose the locus where it loses rank."""
+
+MEMBERSHIP_SECONDS = 5.0
 
 
 @dataclass(frozen=True)
@@ -221,7 +221,7 @@ class _Work:
         verdict = Verdict.yes() if dimension >= 0 else Verdict.no(reason="no real point")
         if doubts and dimension < self.equation.n - 1:
             verdict = Verdict.undecided("; ".join(dict.fromkeys(doubts)))
-        points = sum(p.points or 0 for p in inside) if dimension == 0 else None
+        points = _counted(inside) if dimension == 0 else None
         return Locus(
             label,
             factor.polynomial,
@@ -278,7 +278,7 @@ class _Work:
             verdict = Verdict.no(reason=reason)
             steps = (excluded_in(candidate.types, occurring),)
         dimension = max((p.dimension for p in present if p.dimension is not None), default=None)
-        points = sum(p.points or 0 for p in present) if dimension == 0 and not doubts else None
+        points = _counted(present) if dimension == 0 and not doubts else None
         return ClassResult(
             candidate,
             verdict,
@@ -313,8 +313,27 @@ class _Work:
 
 
 def _vanishes(polynomial: Polynomial, piece: Piece) -> bool:
-    """Whether a polynomial vanishes on a piece: by its path, or as a member of its ideal."""
-    return polynomial in piece.path or Ideal(polynomial.ring, piece.basis).contains(polynomial)
+    """Whether a polynomial vanishes on a piece: by its path, or as a member of its ideal.
+
+    A witness where it is large rules it out; a membership that takes long is not waited for.
+    """
+    if polynomial in piece.path:
+        return True
+    places = [[float(w.coordinates[name]) for name in polynomial.ring.names] for w in piece.witnesses]
+    if any(abs(polynomial.evaluate(x)) > 1e-6 for x in places):
+        return False
+    try:
+        with Budget(MEMBERSHIP_SECONDS):
+            return Ideal(polynomial.ring, piece.basis).contains(polynomial)
+    except Undecided:
+        return False
+
+
+def _counted(pieces: Sequence[Piece]) -> int | None:
+    """The points of finite pieces together; None where those of one were not counted."""
+    if any(p.points is None and p.dimension == 0 for p in pieces):
+        return None
+    return sum(p.points or 0 for p in pieces)
 
 
 def _with_components(locus: Locus, counted: Counted) -> Locus:

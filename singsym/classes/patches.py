@@ -8,10 +8,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
+from singsym.elimination.budget import current
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.splitting import factor_equations, irreducible_factors, linear_substitution
 
 MOST_PATCHES = 64
+LONGEST = 60
+"""Longer equations are not compared with each other."""
 
 
 @dataclass(frozen=True)
@@ -45,9 +48,11 @@ def patches(equations: Iterable[Polynomial], nonzero: Sequence[Polynomial], ring
     away = irreducible_factors(nonzero) or frozenset()
     waiting: list[tuple[tuple[Polynomial, ...], dict[str, Polynomial]]] = [(tuple(equations), {})]
     found: dict[frozenset[Polynomial], Patch] = {}
+    budget = current()
     while waiting and len(waiting) + len(found) <= MOST_PATCHES:
-        current, solved = waiting.pop()
-        factored = factor_equations(current, away)
+        budget.check("splitting equations")
+        equations, solved = waiting.pop()
+        factored = factor_equations(equations, away)
         if factored is None:
             continue
         products = [f for f in factored if len(f) > 1]
@@ -73,7 +78,7 @@ def patches(equations: Iterable[Polynomial], nonzero: Sequence[Polynomial], ring
         put = {step.name: step.value}
         known = {n: v.substitute(put) for n, v in solved.items()} | {step.name: step.value}
         waiting.append((tuple(p.substitute(put) for p in single), known))
-    left = [Patch(ring, solved, current) for current, solved in waiting]
+    left = [Patch(ring, solved, equations) for equations, solved in waiting]
     return tuple(sorted((*found.values(), *left), key=lambda p: str(p.generators)))
 
 
@@ -92,7 +97,7 @@ def _shortened(equations: Sequence[Polynomial]) -> list[Polynomial]:
         changed = False
         for i, p in enumerate(work):
             for q in work:
-                if q is p or not q:
+                if q is p or not q or len(q) > LONGEST or len(p) > LONGEST:
                     continue
                 candidate = _without(p, q)
                 if candidate is not None:

@@ -29,6 +29,8 @@ from singsym.varieties.real.witness import RealSystem
 
 ALL_MINORS = 24
 """Up to this many minors of a block, its rank locus is written with all of them."""
+EASY_MINORS = 24
+"""Of a larger block, so many minors that are products of small determinants are used."""
 
 
 @dataclass(frozen=True)
@@ -210,7 +212,7 @@ def _locus(
             for j in combinations(range(block.shape[1]), r)
         ]
     elif r == block.shape[0] and (easy := easy_columns(block)):
-        choices = [(rows, c) for c in easy[:ALL_MINORS]]
+        choices = [(rows, c) for c in easy[:EASY_MINORS]]
     else:
         choices = [(rows, columns), *_swapped(block.shape, rows, columns)]
     minors: dict[Polynomial, None] = {}
@@ -305,7 +307,10 @@ def patch_stratum(problem: RankProblem, patch: Patch, feasible: RealSystem, samp
 
 
 def union_of_loci(minors: tuple[Polynomial, ...], certifier: Certifier) -> tuple[tuple[Polynomial, ...], ...]:
-    """The common zeros of minors as a union of common zeros of factors that are not proved nonzero."""
+    """Common zeros of factors, not proved nonzero, whose union holds the common zeros of the minors.
+
+    Minors with few factors come first; where the choices are too many, the last are left out.
+    """
     products = []
     for minor in minors:
         parts = factored((minor,), certifier)
@@ -316,8 +321,13 @@ def union_of_loci(minors: tuple[Polynomial, ...], certifier: Certifier) -> tuple
         products.append(parts.polynomials)
     if not products:
         return ()
+    products.sort(key=lambda factors: (len(factors), sum(len(p) for p in factors)))
     found = alternatives(tuple(products), certifier)
-    return (tuple(minors),) if found is None else found
+    while found is None:
+        # fewer equations hold on a larger set: still all of the locus
+        products = products[: len(products) * 2 // 3]
+        found = alternatives(tuple(products), certifier)
+    return found
 
 
 def pivots(matrix: list[list[float]]) -> tuple[tuple[int, ...], tuple[int, ...]]:

@@ -43,18 +43,20 @@ class Polynomial:
     [(x + y, 1), (x - y, 1)]
     """
 
-    __slots__ = ("_hash", "_integer", "ring", "value")
+    __slots__ = ("_factors", "_hash", "_integer", "ring", "value")
 
     ring: Ring
     value: fmpq_mpoly
     _hash: int
     _integer: fmpz_mpoly | None
+    _factors: tuple[tuple[Polynomial, int], ...] | None
 
     def __init__(self, ring: Ring, value: fmpq_mpoly) -> None:
         object.__setattr__(self, "ring", ring)
         object.__setattr__(self, "value", value)
         object.__setattr__(self, "_hash", 0)
         object.__setattr__(self, "_integer", None)
+        object.__setattr__(self, "_factors", None)
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError(f"a Polynomial is immutable: {name} cannot be set")
@@ -191,8 +193,12 @@ class Polynomial:
 
     def factors(self) -> list[tuple[Polynomial, int]]:
         """Primitive irreducible factors over Q with multiplicities, constants dropped, sorted."""
-        found = [(Polynomial(self.ring, f).primitive(), k) for f, k in self.value.factor()[1]]
-        return sorted(found, key=lambda pair: (len(pair[0]), pair[0].total_degree, str(pair[0])))
+        if self._factors is None:
+            found = [(Polynomial(self.ring, f).primitive(), k) for f, k in self.value.factor()[1]]
+            found.sort(key=lambda pair: (len(pair[0]), pair[0].total_degree, str(pair[0])))
+            object.__setattr__(self, "_factors", tuple(found))
+        assert self._factors is not None
+        return list(self._factors)
 
     def squarefree_part(self) -> Polynomial:
         """The product of the distinct irreducible factors, primitive."""
