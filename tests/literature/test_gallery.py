@@ -275,3 +275,14 @@ def test_peaucellier(classified: Classified) -> None:
     result = classified(load("peaucellier"))
     assert not result.undecided
     assert all(c.verdict.is_no for c in result.classes)
+
+
+def test_stephenson_output_rests_by_the_pole(classified: Classified) -> None:
+    """E moves about the coupler's pole, where AB meets CD; G rests where EF passes it (Kennedy's theorem)."""
+    found = classified(load("stephenson-six-bar")).of(SingularityType.RI | SingularityType.IO)
+    assert found.points == 6
+    for w in found.witnesses:
+        at = {p: np.array([float(w.points[f"{p}.x"]), float(w.points[f"{p}.y"]), 1.0]) for p in "ABCDEF"}
+        pole = np.cross(np.cross(at["A"], at["B"]), np.cross(at["C"], at["D"]))
+        lines = np.array([pole / np.linalg.norm(pole), at["E"], at["F"]])
+        assert np.linalg.det(lines) == pytest.approx(0, abs=1e-9)
