@@ -32,7 +32,6 @@ from singsym.minors.determinant import determinant
 from singsym.polynomials import Polynomial
 from singsym.varieties.real.witness import RealSystem
 
-
 MEMBERSHIP_SECONDS = 5.0
 
 
@@ -264,7 +263,7 @@ class _Work:
             (p for p in own if p.verdict.is_yes), key=lambda p: (-(p.dimension or 0), str(p.path))
         )
         doubts = [p.verdict.reason for p in own if p.verdict.is_undecided]
-        doubts += [reason for _, reason in explored.unexplored]
+        doubts += explored.doubts(candidate.types)
         if present:
             certainty = present[0].verdict.certainty
             verdict = Verdict.yes(certainty, reason="; ".join(dict.fromkeys(doubts)))

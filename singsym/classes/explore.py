@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 from singsym.classes.patches import Patch, patches
 from singsym.classes.strata import Ground, NotEvident, RankProblem, Samples, Stratum, patch_stratum, stratum
-from singsym.classes.types import Defects
+from singsym.classes.types import Defects, SingularityType
 from singsym.classes.work import Runner
 from singsym.elimination.budget import Budget, BudgetExceeded, Undecided
 from singsym.polynomials import Polynomial
@@ -20,6 +20,7 @@ from singsym.varieties.real.emptiness import is_empty_over_reals
 from singsym.varieties.real.witness import RealSystem
 from singsym.varieties.real.zerodim import real_points
 
+_T = SingularityType
 Equations = tuple[Polynomial, ...]
 STARTS = 60
 """Random starts for numerical points of a set."""
@@ -67,10 +68,20 @@ class Found:
 
 @dataclass(frozen=True)
 class Exploration:
-    """All strata, and the branches that ended without an answer, with their reasons."""
+    """All strata, and the branches that ended without an answer, with their reasons.
+
+    evident: the strata with k_I = 0 or k_O = 0 are all there, whatever is unexplored.
+    """
 
     found: tuple[Found, ...]
     unexplored: tuple[tuple[Branch, str], ...]
+    evident: bool = False
+
+    def doubts(self, types: SingularityType) -> tuple[str, ...]:
+        """Why there may be more configurations of these types than were found."""
+        if self.evident and types in (_T.RI | _T.IO, _T.RO | _T.II):
+            return ()
+        return tuple(dict.fromkeys(reason for _, reason in self.unexplored))
 
 
 def explore(branch: Branch) -> Explored:
@@ -201,7 +212,7 @@ def search(
                 found[part.equations] = Found(branch.path, part)
                 following.extend(_children(branch, part, visited))
         frontier = following
-    return Exploration(tuple(found.values()), tuple(unexplored))
+    return Exploration(tuple(found.values()), tuple(unexplored), singular is not None)
 
 
 def _evident_strata(root: Branch, singular: SingularLoci) -> Iterator[Found]:
