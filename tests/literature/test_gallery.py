@@ -51,6 +51,8 @@ QUICK = [
     "2r",
     "3prr",
     "3rpr",
+    "3rrr",
+    "stewart-gough-planar",
     "change-point",
     "crank-slotted-lever",
     "double-parallelogram",
