@@ -13,7 +13,7 @@ from singsym.classes.patches import Patch, patches
 from singsym.classes.strata import Ground, NotEvident, RankProblem, Samples, Stratum, patch_stratum, stratum
 from singsym.classes.types import Defects, SingularityType
 from singsym.classes.work import Runner
-from singsym.elimination.budget import Budget, BudgetExceeded, Undecided
+from singsym.elimination.budget import Budget, Undecided
 from singsym.polynomials import Polynomial
 from singsym.varieties.decomposition import Component, decompose
 from singsym.varieties.real.emptiness import is_empty_over_reals
@@ -192,18 +192,18 @@ def search(
     if singular is not None:
         found = {part.stratum.equations: part for part in _evident_strata(root, singular)}
         frontier = [replace(root, path=path) for path in _to_search(singular)]
+    whole = budget or Budget()
     unexplored: list[tuple[Branch, str]] = []
     visited = {frozenset(branch.path) for branch in frontier}
     level = 0
     while frontier:
         level += 1
-        try:
-            results = runner.map(explore, frontier, f"strata, level {level}", budget)
-        except BudgetExceeded as reason:
-            unexplored += [(branch, str(reason)) for branch in frontier]
-            break
+        results = runner.map_within(explore, frontier, f"strata, level {level}", whole)
         following: list[Branch] = []
         for branch, explored in zip(frontier, results, strict=True):
+            if explored is None:
+                unexplored.append((branch, f"the budget of {whole.seconds:g} s for the search is used up"))
+                continue
             if explored.undecided:
                 unexplored.append((branch, explored.undecided))
             for part in explored.strata:

@@ -66,6 +66,11 @@ class Piece:
     components: int | None = None
     witnesses: tuple[Configuration, ...] = ()
 
+    @property
+    def provisional(self) -> bool:
+        """Whether a larger budget could say more."""
+        return self.verdict.is_undecided
+
 
 @dataclass(frozen=True)
 class Locus:

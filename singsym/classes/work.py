@@ -12,7 +12,7 @@ import os
 import pickle
 import sys
 import tempfile
-from collections.abc import Callable, Mapping, Sequence, Sized
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, as_completed
 from fractions import Fraction
 from pathlib import Path
@@ -123,16 +123,25 @@ class Runner:
     executor: Executor | None = None
     cache: Cache | None = None
 
-    def map(
-        self, function: Callable[[T], R], tasks: Sequence[T], stage: str, budget: Budget | None = None
-    ) -> list[R]:
+    def map(self, function: Callable[[T], R], tasks: Sequence[T], stage: str) -> list[R]:
         """The results in the order of the tasks, whatever order they finish in.
-
-        Raises `BudgetExceeded` where a task is finished after the time; what is done is in the cache.
 
         >>> Runner().map(abs, [-1, 2], "abs")
         [1, 2]
         """
+        results = self._run(function, tasks, stage, Budget())
+        return [results[i] for i in range(len(tasks))]
+
+    def map_within(
+        self, function: Callable[[T], R], tasks: Sequence[T], stage: str, budget: Budget
+    ) -> list[R | None]:
+        """The same, with None for tasks that were not finished when the budget was used up."""
+        results = self._run(function, tasks, stage, budget)
+        return [results.get(i) for i in range(len(tasks))]
+
+    def _run(
+        self, function: Callable[[T], R], tasks: Sequence[T], stage: str, budget: Budget
+    ) -> dict[int, R]:
         results: dict[int, R] = {}
         paths: dict[int, Path] = {}
         if self.cache is not None:
@@ -143,43 +152,36 @@ class Runner:
                     results[i] = found
         waiting = [i for i in range(len(tasks)) if i not in results]
         progress.report(stage, done=len(results), total=len(tasks))
-        if self.executor is None or len(waiting) == 0:
-            for i in waiting:
-                self._keep(results, paths, i, function(tasks[i]))
-                progress.report(stage, done=len(results), total=len(tasks))
-                _check(budget, stage, results, tasks)
-        else:
-            self._scatter(self.executor, function, tasks, waiting, results, paths, stage, budget)
-        return [results[i] for i in range(len(tasks))]
+        finished = self._scattered if self.executor is not None and waiting else self._in_turn
+        for i, result in finished(function, tasks, waiting):
+            results[i] = result
+            if self.cache is not None and not getattr(result, "provisional", False):
+                self.cache.put(paths[i], result)
+            progress.report(stage, done=len(results), total=len(tasks))
+            if budget.remaining() == 0.0:
+                break
+        return results
 
-    def _scatter(
-        self,
-        executor: Executor,
-        function: Callable[[T], R],
-        tasks: Sequence[T],
-        waiting: Sequence[int],
-        results: dict[int, R],
-        paths: dict[int, Path],
-        stage: str,
-        budget: Budget | None,
-    ) -> None:
+    def _in_turn(
+        self, function: Callable[[T], R], tasks: Sequence[T], waiting: Sequence[int]
+    ) -> Iterator[tuple[int, R]]:
+        for i in waiting:
+            yield i, function(tasks[i])
+
+    def _scattered(
+        self, function: Callable[[T], R], tasks: Sequence[T], waiting: Sequence[int]
+    ) -> Iterator[tuple[int, R]]:
+        assert self.executor is not None
         allowed = engines.allowed()
         futures: dict[Future[R], int] = {
-            executor.submit(_with_engines, allowed, function, tasks[i]): i for i in waiting
+            self.executor.submit(_with_engines, allowed, function, tasks[i]): i for i in waiting
         }
         try:
             for future in as_completed(futures):
-                self._keep(results, paths, futures[future], future.result())
-                progress.report(stage, done=len(results), total=len(tasks))
-                _check(budget, stage, results, tasks)
+                yield futures[future], future.result()
         finally:
             for future in futures:
                 future.cancel()
-
-    def _keep(self, results: dict[int, R], paths: dict[int, Path], i: int, result: R) -> None:
-        results[i] = result
-        if self.cache is not None and not getattr(result, "provisional", False):
-            self.cache.put(paths[i], result)
 
 
 class _Processes(ProcessPoolExecutor):
@@ -193,11 +195,6 @@ class _Processes(ProcessPoolExecutor):
             for child in multiprocessing.active_children():
                 child.terminate()
         super().__exit__(kind, error, trace)
-
-
-def _check(budget: Budget | None, stage: str, results: Sized, tasks: Sized) -> None:
-    if budget is not None and len(results) < len(tasks):
-        budget.check(stage)
 
 
 def processes(workers: int) -> Executor | None:
