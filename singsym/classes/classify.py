@@ -12,12 +12,12 @@ from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from singsym.classes.explore import Branch, Equations, Exploration, Loci, SingularLoci, search
+from singsym.classes.explore import Branch, Equations, Exploration, Found, Loci, SingularLoci, search
 from singsym.classes.realise import Counted, CurveTask, Names, RealTask, count, realise
 from singsym.classes.result import Classification, ClassResult, Locus, Piece, SpacePiece
 from singsym.classes.steps import excluded_in, found_in
-from singsym.classes.strata import EASY_MINORS, RankProblem, union_of_loci
-from singsym.classes.types import SingularityClass, SingularityType, feasible_classes
+from singsym.classes.strata import EASY_MINORS, RankProblem, Stratum, union_of_loci
+from singsym.classes.types import Defects, SingularityClass, SingularityType, feasible_classes
 from singsym.classes.work import Cache, Runner, cache_folder, processes
 from singsym.elimination import engines
 from singsym.elimination.budget import Budget, Undecided
@@ -195,10 +195,13 @@ class _Work:
     # -- loci ----------------------------------------------------------------------------------------
 
     def _loci(self, explored: Exploration, pieces: Sequence[Piece]) -> tuple[Locus, ...]:
-        loci = []
-        for label in ("4", "5"):
-            for factor in self.conditions[label].factors:
-                loci.append(self._locus(label, factor, explored, pieces))
+        factors = [(label, factor) for label in ("4", "5") for factor in self.conditions[label].factors]
+        if self.equation.n == 1:
+            whole = self.runner.map(realise, [self._whole(f) for _, f in factors], "loci")
+            return tuple(
+                self._finite_locus(label, f, piece) for (label, f), piece in zip(factors, whole, strict=True)
+            )
+        loci = [self._locus(label, factor, explored, pieces) for label, factor in factors]
         curves = [i for i, locus in enumerate(loci) if locus.dimension == 1]
         equations = self.equation.space.equations
         tasks = [
@@ -210,6 +213,18 @@ class _Work:
         for i, counted in zip(curves, self.runner.map(count, tasks, "curves"), strict=True):
             loci[i] = _with_components(loci[i], counted)
         return tuple(loci)
+
+    def _whole(self, factor: Factor) -> RealTask:
+        """All real zeros of a factor, whatever their class."""
+        equations = (*self.equation.space.equations, factor.polynomial)
+        found = Found((factor.polynomial,), Stratum(equations, Defects(0, 0, 0, 0), {}))
+        return RealTask(found, self.feasible, self.names, self.limits.seconds, self.limits.memory_mb)
+
+    def _finite_locus(self, label: str, factor: Factor, piece: Piece) -> Locus:
+        polynomial, points = factor.polynomial, piece.points
+        return Locus(
+            label, polynomial, factor.words, factor.latex(), piece.verdict, piece.dimension, points, points
+        )
 
     def _locus(self, label: str, factor: Factor, explored: Exploration, pieces: Sequence[Piece]) -> Locus:
         """What the pieces on which this factor vanishes say of its zero set."""

@@ -228,15 +228,22 @@ def _evident_strata(root: Branch, singular: SingularLoci) -> Iterator[Found]:
         (inputs, outputs, "L_O", Defects(0, 0, 1, 0)),
         (outputs, inputs, "L_I", Defects(0, 0, 0, 1)),
     ):
-        for path in own:
-            if path not in other:
-                yield Found(path, Stratum((*root.equations, *path), defects, {name: other}))
+        paths = [path for path in own if path not in other]
+        for i, path in enumerate(paths):
+            equations = (*root.equations, *path)
+            yield Found(path, Stratum(equations, defects, {name: other}, elsewhere=tuple(paths[:i])))
     if singular.passive is None or singular.mobility is None:
         return
     taken_out = {"L": singular.mobility, "L_p": singular.passive}
-    for path in _intersections(inputs, outputs):
-        if not any(set(locus) <= set(path) for locus in (*singular.passive, *singular.mobility)):
-            yield Found(path, Stratum((*root.equations, *path), Defects(0, 0, 1, 1), taken_out))
+    searched = (*singular.passive, *singular.mobility)
+    paths = [
+        path
+        for path in _intersections(inputs, outputs)
+        if not any(set(locus) <= set(path) for locus in searched)
+    ]
+    for i, path in enumerate(paths):
+        equations = (*root.equations, *path)
+        yield Found(path, Stratum(equations, Defects(0, 0, 1, 1), taken_out, elsewhere=tuple(paths[:i])))
 
 
 def _to_search(singular: SingularLoci) -> list[Equations]:

@@ -87,7 +87,7 @@ def realise(task: RealTask) -> Piece:
     try:
         with Budget(task.seconds, task.memory_mb):
             if stratum.component is None:
-                return _given(piece, system, task.names)
+                return _given(piece, system, task.names, stratum.elsewhere)
             if stratum.component.dimension == 0:
                 return _finite(piece, real_points(stratum.equations), system, task.names)
             return _positive(piece, component_dimension(stratum.component, system), task.names)
@@ -95,18 +95,23 @@ def realise(task: RealTask) -> Piece:
         return replace(piece, verdict=Verdict.undecided(str(reason)))
 
 
-def _given(piece: Piece, system: RealSystem, names: Names) -> Piece:
+def _given(piece: Piece, system: RealSystem, names: Names, elsewhere: tuple[Equations, ...]) -> Piece:
     """A set given by equations: where their gradients are independent at a point, a manifold near it."""
     dimension = len(system.ring.names) - len(system.closed_equations)
     if dimension <= 0:
         try:
-            return _finite(piece, real_points(piece.basis), system, names)
+            solutions = [p for p in real_points(piece.basis) if not _lies_in(p, elsewhere)]
+            return _finite(piece, solutions, system, names)
         except NotZeroDimensional:
             return _positive(piece, real_dimension(system), names)
     witness = find_witness(system, dimension=dimension, tries=SEARCHES)
     if witness is not None and independent(system.closed_equations, witness.point):
         return _positive(piece, (dimension, witness), names)
     return _positive(piece, real_dimension(system), names)
+
+
+def _lies_in(point: RealPoint, loci: tuple[Equations, ...]) -> bool:
+    return any(all(point.sign(p) == 0 for p in locus) for locus in loci)
 
 
 def _finite(piece: Piece, solutions: Sequence[RealPoint], system: RealSystem, names: Names) -> Piece:

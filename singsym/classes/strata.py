@@ -73,12 +73,14 @@ class Stratum:
     loci: for each of the four matrices, the loci to be taken out whose loss of rank would change the types;
         of each tuple, not all polynomials vanish on the stratum.
     component: the equations' zero set where it comes from a decomposition, else None.
+    elsewhere: loci whose points in the stratum belong to another stratum of the same types as well.
     """
 
     equations: tuple[Polynomial, ...]
     defects: Defects
     loci: Mapping[str, tuple[tuple[Polynomial, ...], ...]]
     component: Component | None = None
+    elsewhere: tuple[tuple[Polynomial, ...], ...] = ()
 
     @property
     def degenerate(self) -> tuple[tuple[Polynomial, ...], ...]:
