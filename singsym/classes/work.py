@@ -10,6 +10,7 @@ import hashlib
 import multiprocessing
 import os
 import pickle
+import signal
 import sys
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -202,4 +203,10 @@ def processes(workers: int) -> Executor | None:
     if workers <= 1:
         return None
     method = "forkserver" if "forkserver" in multiprocessing.get_all_start_methods() else "spawn"
-    return _Processes(workers, mp_context=multiprocessing.get_context(method))
+    # an interrupt is the parent's to handle: it ends its workers
+    return _Processes(
+        workers,
+        mp_context=multiprocessing.get_context(method),
+        initializer=signal.signal,
+        initargs=(signal.SIGINT, signal.SIG_IGN),
+    )

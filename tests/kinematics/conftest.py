@@ -100,6 +100,9 @@ def _rates(mechanism: Mechanism, placement: Placement, point: np.ndarray, tangen
         rows[0, size * len(links) + columns.index(column)] = 1
         if value.length is not None:
             add(rows, derivative((value.length,)))
+        elif value.square is not None:
+            # the screw is scaled by the length r, so its rate is r'/r = (r^2)' / (2 r^2)
+            add(rows, derivative((value.square,)) / (2 * numbers((value.square,), point)))
         else:
             c, s, scale = numbers((value.cosine, value.sine, value.scale), point)
             dc, ds = derivative((value.cosine, value.sine))
