@@ -58,7 +58,7 @@ def _strut_limits(
 ) -> list[Polynomial]:
     """low <= length <= high for a positive length, by squares; a lower bound of zero or less says nothing."""
     found = []
-    if limit.low is not None and not sympy.sympify(limit.low).is_nonpositive:
+    if limit.low is not None and not sympy.sympify(limit.low, strict=True).is_nonpositive:
         found.append(square - _value(limit.low, mechanism, placed)[0] ** 2)
     if limit.high is not None:
         found.append(_value(limit.high, mechanism, placed)[0] ** 2 - square)

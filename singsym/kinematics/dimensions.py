@@ -74,7 +74,7 @@ class Dimensions:
         bounds = [bound for p in ranges for bound in (p.low, p.high)]
         for expression in (*expressions, *bounds):
             if expression is not None:
-                _collect(sympy.sympify(expression).xreplace(values), atoms, roots)
+                _collect(sympy.sympify(expression, strict=True).xreplace(values), atoms, roots)
         taken = {p.name for p in ranges}
         auxiliaries = []
         for base, index in roots:
@@ -127,7 +127,7 @@ class Dimensions:
         symbols: what a symbol's name stands for, if not for the variable of that name.
         Raises `ValueError` for floats, unknown symbols, and numbers not announced to `of`.
         """
-        expression = sympy.sympify(expression).xreplace(dict(self.values))
+        expression = sympy.sympify(expression, strict=True).xreplace(dict(self.values))
         return self.normal(self._convert(ring, expression, symbols or {}))
 
     def vector(self, ring: Ring, expressions: Iterable[Any]) -> tuple[Polynomial, ...]:
@@ -207,16 +207,19 @@ class Dimensions:
 
     def is_numeric(self, expression: Any) -> bool:
         """Whether no ranged parameter is left in it once fixed values are put in."""
-        return not sympy.sympify(expression).xreplace(dict(self.values)).free_symbols
+        return not sympy.sympify(expression, strict=True).xreplace(dict(self.values)).free_symbols
 
     def is_positive(self, expression: Any) -> bool:
         """Whether it is certainly positive for all admitted parameters; False where that is not seen."""
         known = {
             sympy.Symbol(p.name): sympy.Symbol(p.name, positive=True)
             for p in self.ranges
-            if p.low is not None and sympy.sympify(p.low).xreplace(dict(self.values)).is_nonnegative
+            if p.low is not None
+            and sympy.sympify(p.low, strict=True).xreplace(dict(self.values)).is_nonnegative
         }
-        return bool(sympy.sympify(expression).xreplace(dict(self.values)).xreplace(known).is_positive)
+        return bool(
+            sympy.sympify(expression, strict=True).xreplace(dict(self.values)).xreplace(known).is_positive
+        )
 
     # -- what the dimensions add to a configuration space ----------------------------------------
 
@@ -272,7 +275,7 @@ def norm(vector: Iterable[Any]) -> sympy.Expr:
     >>> norm((sympy.Integer(1), sympy.Integer(1)))
     sqrt(2)
     """
-    square = sympy.expand(sympy.Add(*(sympy.sympify(x) ** 2 for x in vector)))
+    square = sympy.expand(sympy.Add(*(sympy.sympify(x, strict=True) ** 2 for x in vector)))
     if square.is_number and not square.is_Rational:
         # cos^2 + sin^2 must not become a nested root.
         found = Dimensions.of_expressions((square,))
@@ -289,7 +292,7 @@ def _fraction(e: Any) -> Fraction:
 def _resolved(values: dict[sympy.Symbol, sympy.Expr]) -> dict[sympy.Symbol, sympy.Expr]:
     """Fixed parameters may be given through one another; raises `ValueError` on a circle."""
     for _ in range(len(values) + 1):
-        settled = {s: sympy.sympify(v).xreplace(values) for s, v in values.items()}
+        settled = {s: sympy.sympify(v, strict=True).xreplace(values) for s, v in values.items()}
         if not any(v.free_symbols & values.keys() for v in settled.values()):
             return settled
         values = settled
