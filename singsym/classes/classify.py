@@ -12,16 +12,7 @@ from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from singsym.classes.explore import (
-    Branch,
-    Equations,
-    Exploration,
-    Found,
-    Loci,
-    SingularLoci,
-    explore_components,
-    search,
-)
+from singsym.classes.explore import Branch, Equations, Exploration, Found, Loci, SingularLoci, search
 from singsym.classes.realise import Counted, CurveTask, Names, RealTask, count, realise
 from singsym.classes.result import Classification, ClassResult, Locus, Piece, SpacePiece
 from singsym.classes.steps import excluded_in, found_in
@@ -42,8 +33,6 @@ from singsym.polynomials import Polynomial
 from singsym.varieties.real.witness import RealSystem
 
 MEMBERSHIP_SECONDS = 5.0
-SPACE_SECONDS = 15.0
-"""For the components of the configuration space, which no class depends on."""
 
 
 @dataclass(frozen=True)
@@ -162,7 +151,7 @@ class _Work:
             self.mechanism,
             self.equation,
             self.conditions.reduction,
-            self._space(root, pieces, classes),
+            self._space(pieces, classes),
             loci,
             classes,
             tuple(name for name in engines.allowed() if engines.has(name)),
@@ -317,33 +306,23 @@ class _Work:
 
     # -- configuration space ---------------------------------------------------------------------------
 
-    def _space(
-        self, root: Branch, pieces: Sequence[Piece], classes: Sequence[ClassResult]
-    ) -> tuple[SpacePiece, ...]:
-        """The components of the configuration space, or the whole where it is not taken apart in time."""
+    def _space(self, pieces: Sequence[Piece], classes: Sequence[ClassResult]) -> tuple[SpacePiece, ...]:
         increased = [c for c in classes if SingularityType.IIM in c.types]
-        # lemma: rank L = N means independent loop equations, so a manifold
-        smooth = "yes" if all(c.verdict.is_no for c in increased) else "undecided"
-        seconds = min(self.limits.seconds or SPACE_SECONDS, SPACE_SECONDS)
-        (explored,) = self.runner.map(
-            explore_components, [replace(root, seconds=seconds)], "configuration space"
-        )
-        parts: Sequence[Piece] = [piece for piece in pieces if not piece.path]
-        doubt = "its components were not told apart in time" if explored.undecided else ""
-        if not explored.undecided:
-            tasks = [
-                RealTask(Found((), part), self.feasible, self.names, seconds, self.limits.memory_mb)
-                for part in explored.strata
-            ]
-            parts = self.runner.map(realise, tasks, "configuration space")
+        smooth = "undecided"
+        if all(c.verdict.is_no for c in increased):
+            # lemma: rank L = N means independent loop equations, so a manifold
+            smooth = "yes"
         found = []
-        for part in parts:
-            if part.verdict.is_no:
+        for piece in pieces:
+            if piece.path:
                 continue
-            remark = doubt
-            if part.defects.types:
-                remark = f"every configuration is singular: {part.defects.types}"
-            found.append(SpacePiece(part.dimension, smooth, part.defects, part.verdict, part.basis, remark))
+            defects = piece.defects
+            remark = ""
+            if defects.delta:
+                remark = f"rank L is {defects.delta} below N in every configuration"
+            elif defects.types:
+                remark = f"every configuration is singular: {defects.types}"
+            found.append(SpacePiece(piece.dimension, smooth, defects, piece.verdict, piece.basis, remark))
         return tuple(found)
 
 

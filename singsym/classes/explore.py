@@ -90,7 +90,7 @@ def explore(branch: Branch) -> Explored:
     Parts without a feasible real point are left out.
     """
     feasible = branch.feasible
-    nonzero = _nonzero(feasible)
+    nonzero = [*(e[0] for e in feasible.exclusions if len(e) == 1), *feasible.positive]
     strata: list[Stratum] = []
     try:
         with Budget(branch.seconds, branch.memory_mb):
@@ -114,30 +114,10 @@ def _patch_strata(branch: Branch, patch: Patch, nonzero: Sequence[Polynomial]) -
             return
         except NotEvident:
             pass
-    yield from _component_strata(branch, patch.generators, nonzero)
-
-
-def _component_strata(
-    branch: Branch, equations: Equations, nonzero: Sequence[Polynomial]
-) -> Iterator[Stratum]:
-    for component in decompose(equations, nonzero, ring=branch.feasible.ring):
-        samples = _samples(component, branch.feasible)
+    for component in decompose(patch.generators, nonzero, ring=feasible.ring):
+        samples = _samples(component, feasible)
         if samples is not None:
             yield stratum(branch.problem, Ground(component, samples))
-
-
-def explore_components(branch: Branch) -> Explored:
-    """The strata of a branch's components, each with its own ranks: for the configuration space itself."""
-    nonzero = _nonzero(branch.feasible)
-    try:
-        with Budget(branch.seconds, branch.memory_mb):
-            return Explored(tuple(_component_strata(branch, branch.equations, nonzero)))
-    except Undecided as reason:
-        return Explored((), str(reason))
-
-
-def _nonzero(feasible: RealSystem) -> list[Polynomial]:
-    return [*(e[0] for e in feasible.exclusions if len(e) == 1), *feasible.positive]
 
 
 def _samples(component: Component, feasible: RealSystem) -> Samples | None:

@@ -120,9 +120,9 @@ def component_dimension(
     boundaries = tuple(p for p in system.nonnegative if not component.vanishes(p))
     strict = replace(piece, positive=(*system.positive, *boundaries), nonnegative=())
     found = find_witness(strict, seed=seed, tries=8, dimension=component.dimension, budget=budget)
-    codimension = len(system.ring.names) - component.dimension
-    if found is not None and _has_rank(component.generators, found.point, codimension):
+    if found is not None and local_dimension(found, component.ideal) == component.dimension:
         return component.dimension, found
+    codimension = len(system.ring.names) - component.dimension
     if not codimension:
         regular, singular = strict, Ideal(system.ring, (system.ring.one,))
     else:

@@ -54,16 +54,10 @@ class RealSystem:
     def admits(self, point: RealPoint | BoxPoint) -> bool:
         """Whether a point that solves the equations meets all other conditions, by exact signs."""
         return (
-            all(_leaves(point, group) for group in self.exclusions)
+            all(any(point.sign(g) for g in group) for group in self.exclusions)
             and all(point.sign(p) > 0 for p in self.positive)
             and all(point.sign(p) >= 0 for p in self.nonnegative)
         )
-
-
-def _leaves(point: RealPoint | BoxPoint, group: Sequence[Polynomial]) -> bool:
-    """Whether a polynomial of the group is not zero at the point: the largest there are asked first."""
-    near = point.floats
-    return any(point.sign(g) for g in sorted(group, key=lambda g: -abs(g.evaluate(near))))
 
 
 @dataclass(frozen=True)
@@ -228,9 +222,10 @@ def _certified(
 ) -> RealPoint | BoxPoint | None:
     """An exact point with the frozen values, nearest to the sample; a box for a large square system."""
     ring = system.ring
-    square = len(equations) == len(ring.names) - len(values)
-    if square and _bezout(equations, values) > _FEW_SOLUTIONS:
-        return _certified_box(system, equations, values, sample)
+    if _bezout(equations, values) > _FEW_SOLUTIONS:
+        box = _certified_box(system, equations, values, sample)
+        if box is not None:
+            return box
     try:
         points = frozen_points(ring, equations, values, budget.part(_SOLVE_SECONDS))
     except NotZeroDimensional:
