@@ -12,11 +12,11 @@ from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from singsym.classes.explore import Branch, Equations, Exploration, Found, Loci, SingularLoci, search
+from singsym.classes.explore import Branch, Exploration, Found, Loci, SingularLoci, search
 from singsym.classes.realise import Counted, CurveTask, Names, RealTask, count, realise
 from singsym.classes.result import Classification, ClassResult, Locus, Piece, SpacePiece
 from singsym.classes.steps import excluded_in, found_in
-from singsym.classes.strata import EASY_MINORS, RankProblem, Stratum, union_of_loci
+from singsym.classes.strata import RankProblem, Stratum
 from singsym.classes.types import Defects, SingularityClass, SingularityType, feasible_classes
 from singsym.classes.work import Cache, Runner, cache_folder, processes
 from singsym.elimination import engines
@@ -27,8 +27,6 @@ from singsym.elimination.verdict import Verdict
 from singsym.kinematics.reduction import reduce
 from singsym.kinematics.velocity import VelocityEquation, velocity_equation
 from singsym.mechanism.model import Mechanism
-from singsym.minors.blocks import easy_columns
-from singsym.minors.determinant import determinant
 from singsym.polynomials import Polynomial
 from singsym.varieties.real.witness import RealSystem
 
@@ -122,14 +120,9 @@ class _Work:
         return Names(self.equation.space.points, self.equation.values)
 
     def problem(self) -> RankProblem:
-        """The four matrices in blocks."""
-        blocks, constants = {}, {}
-        for name in ("L", "L_I", "L_O", "L_p"):
-            parts = self.conditions.rank_blocks(name)
-            blocks[name], constants[name] = parts.blocks, parts.constant
-        matrices = {name: self.conditions.matrix(name) for name in blocks}
-        eliminated = self.conditions.reduction.constant
-        return RankProblem(matrices, eliminated, blocks, constants, self.equation.N, self.equation.n)
+        """The four matrices of the reduced velocity equation."""
+        matrices = {name: self.conditions.matrix(name) for name in ("L", "L_I", "L_O", "L_p")}
+        return RankProblem(matrices, self.conditions.reduction.constant, self.equation.N, self.equation.n)
 
     def classification(self, started: float) -> Classification:
         root = Branch(
@@ -162,35 +155,13 @@ class _Work:
         """The alternatives of (4), (5), (iii) and (vi), where they are known and not everything."""
         found = [self._alternatives(label) for label in ("4", "5", "iii", "vi")]
         inputs, outputs, passive, mobility = found
-        if inputs is None or outputs is None:
-            return None
-        N, n = self.equation.N, self.equation.n
-        if passive is None:
-            passive = self._outer_locus("L_p", N - n)
-        if mobility is None:
-            mobility = self._outer_locus("L", N)
-        return SingularLoci(inputs, outputs, passive, mobility)
+        return None if inputs is None or outputs is None else SingularLoci(inputs, outputs, passive, mobility)
 
     def _alternatives(self, label: str) -> Loci | None:
         condition = self.conditions[label]
         if condition.alternatives is None or condition.everywhere:
             return None
         return condition.polynomials
-
-    def _outer_locus(self, name: str, rank: int) -> Loci | None:
-        """A closed set that holds all configurations where the rank is lower: zeros of easy minors."""
-        parts = self.conditions.rank_blocks(name)
-        if rank != parts.constant + sum(block.shape[0] for block in parts.blocks):
-            return None
-        found: list[Equations] = []
-        for block in parts.blocks:
-            minors = tuple(
-                determinant(block.select(columns=columns)) for columns in easy_columns(block)[:EASY_MINORS]
-            )
-            if not any(minors):
-                return None
-            found += union_of_loci(tuple(m for m in minors if m), self.conditions.certifier)
-        return tuple(dict.fromkeys(found))
 
     # -- loci ----------------------------------------------------------------------------------------
 
@@ -217,7 +188,7 @@ class _Work:
     def _whole(self, factor: Factor) -> RealTask:
         """All real zeros of a factor, whatever their class."""
         equations = (*self.equation.space.equations, factor.polynomial)
-        found = Found((factor.polynomial,), Stratum(equations, Defects(0, 0, 0, 0), {}))
+        found = Found((factor.polynomial,), Stratum(equations, Defects(0, 0, 0, 0)))
         return RealTask(found, self.feasible, self.names, self.limits.seconds, self.limits.memory_mb)
 
     def _finite_locus(self, label: str, factor: Factor, piece: Piece) -> Locus:

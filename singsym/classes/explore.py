@@ -7,10 +7,11 @@ det L_I or of det L_O (the Proposition of section 2.3), so the search starts wit
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 from singsym.classes.patches import Patch, patches
-from singsym.classes.strata import Ground, NotEvident, RankProblem, Samples, Stratum, patch_stratum, stratum
+from singsym.classes.strata import Ground, NotEvident, RankProblem, Samples, Stratum, ranked
 from singsym.classes.types import Defects, SingularityType
 from singsym.classes.work import Runner
 from singsym.elimination.budget import Budget, Undecided
@@ -21,6 +22,8 @@ from singsym.varieties.real.witness import RealSystem
 from singsym.varieties.real.zerodim import real_points
 
 _T = SingularityType
+_SIMPLE = (_T(0), _T.RI | _T.IO, _T.RO | _T.II)
+"""The types of strata that are known where (4) and (5) are."""
 Equations = tuple[Polynomial, ...]
 STARTS = 60
 """Random starts for numerical points of a set."""
@@ -28,11 +31,13 @@ STARTS = 60
 
 @dataclass(frozen=True)
 class Branch:
-    """A closed part of the configuration space to be decomposed into strata.
+    """A part of the configuration space to be decomposed into strata.
 
-    equations: the loop equations; path: the factors and minors that vanish there besides.
+    equations: its closed conditions, loop equations included; path: the factors and minors among them, as
+        they are printed.
+    away: loci that other branches search, left out here.
     feasible: the exclusions and inequalities of the feasible set Omega (its equations are not used).
-    covered: matrices whose loci of lower rank in this branch are searched by another one.
+    first, evident: see `strata.ranked`.
     seconds, memory_mb: the budget of the decomposition.
     """
 
@@ -40,17 +45,30 @@ class Branch:
     feasible: RealSystem
     equations: Equations
     path: Equations = ()
-    covered: tuple[str, ...] = ()
+    away: tuple[Equations, ...] = ()
+    first: str = "L_O"
+    evident: tuple[SingularityType, ...] = ()
     seconds: float | None = None
     memory_mb: int | None = None
+
+    @cached_property
+    def admitted(self) -> RealSystem:
+        """The feasible set off what other branches search."""
+        return replace(self.feasible, exclusions=(*self.feasible.exclusions, *self.away))
+
+    def within(self, locus: Equations, away: tuple[Equations, ...], equations: Equations) -> Branch:
+        """The part of this branch on one more locus."""
+        path = tuple(dict.fromkeys((*self.path, *locus)))
+        return replace(self, equations=(*equations, *locus), path=path, away=(*self.away, *away))
 
 
 @dataclass(frozen=True)
 class Explored:
-    """The strata of a branch, or the reason why there are none yet."""
+    """The strata of a branch, the parts of it left to search, and the reasons where there are none yet."""
 
     strata: tuple[Stratum, ...] = ()
-    undecided: str = ""
+    following: tuple[Branch, ...] = ()
+    undecided: tuple[str, ...] = ()
 
     @property
     def provisional(self) -> bool:
@@ -70,16 +88,16 @@ class Found:
 class Exploration:
     """All strata, and the branches that ended without an answer, with their reasons.
 
-    evident: the strata with k_I = 0 or k_O = 0 are all there, whatever is unexplored.
+    evident: types whose strata are all there, whatever is unexplored.
     """
 
     found: tuple[Found, ...]
     unexplored: tuple[tuple[Branch, str], ...]
-    evident: bool = False
+    evident: tuple[SingularityType, ...] = ()
 
     def doubts(self, types: SingularityType) -> tuple[str, ...]:
         """Why there may be more configurations of these types than were found."""
-        if self.evident and types in (_T.RI | _T.IO, _T.RO | _T.II):
+        if types in self.evident:
             return ()
         return tuple(dict.fromkeys(reason for _, reason in self.unexplored))
 
@@ -89,35 +107,56 @@ def explore(branch: Branch) -> Explored:
 
     Parts without a feasible real point are left out.
     """
-    feasible = branch.feasible
-    nonzero = [*(e[0] for e in feasible.exclusions if len(e) == 1), *feasible.positive]
-    strata: list[Stratum] = []
+    work = _Exploring(branch)
     try:
         with Budget(branch.seconds, branch.memory_mb):
-            for patch in patches((*branch.path, *branch.equations), nonzero, feasible.ring):
-                strata += _patch_strata(branch, patch, nonzero)
+            for patch in patches(branch.equations, _nonzero(branch.admitted), branch.feasible.ring):
+                work.patch(patch)
     except Undecided as reason:
-        return Explored((), str(reason))
-    return Explored(tuple(strata))
+        work.undecided.append(str(reason))
+    return Explored(tuple(work.strata), tuple(work.following), tuple(work.undecided))
 
 
-def _patch_strata(branch: Branch, patch: Patch, nonzero: Sequence[Polynomial]) -> Iterator[Stratum]:
-    """The stratum of a patch as it stands; where that is not evident, those of its components."""
-    feasible = branch.feasible
-    if any(all(patch.restrict(g).is_zero for g in group) for group in feasible.exclusions):
-        return
-    independent = len(patch.generators) + len(feasible.ring.relations) < len(feasible.ring.names)
-    found = numerical_points(feasible, patch.generators) if independent else ()
-    if found:
-        try:
-            yield patch_stratum(branch.problem, patch, feasible, found)
+def _nonzero(system: RealSystem) -> list[Polynomial]:
+    return [*(e[0] for e in system.exclusions if len(e) == 1), *system.positive]
+
+
+@dataclass
+class _Exploring:
+    """A branch at work."""
+
+    branch: Branch
+    strata: list[Stratum] = field(default_factory=list)
+    following: list[Branch] = field(default_factory=list)
+    undecided: list[str] = field(default_factory=list)
+
+    def patch(self, patch: Patch) -> None:
+        """The ranks on a patch as it stands; where that is not evident, on its components."""
+        admitted = self.branch.admitted
+        if any(all(patch.restrict(g).is_zero for g in group) for group in admitted.exclusions):
             return
-        except NotEvident:
-            pass
-    for component in decompose(patch.generators, nonzero, ring=feasible.ring):
-        samples = _samples(component, feasible)
-        if samples is not None:
-            yield stratum(branch.problem, Ground(component, samples))
+        found = numerical_points(admitted, patch.generators)
+        if found:
+            try:
+                self._ranked(Ground(patch, found))
+                return
+            except NotEvident:
+                pass
+        for component in decompose(patch.generators, _nonzero(admitted), ring=admitted.ring):
+            samples = _samples(component, admitted)
+            if samples is not None:
+                self._ranked(Ground(patch, samples, component))
+
+    def _ranked(self, ground: Ground) -> None:
+        branch = self.branch
+        found = ranked(branch.problem, ground, branch.admitted, branch.first, branch.evident)
+        if found.stratum is not None:
+            self.strata.append(replace(found.stratum, loci=(*branch.away, *found.stratum.loci)))
+        taken: tuple[Equations, ...] = ()
+        for locus in (e for whole in found.loci for e in split_product(whole)):
+            if not any(set(known) <= set(locus) for known in taken):
+                self.following.append(branch.within(locus, taken, ground.equations))
+                taken = (*taken, locus)
 
 
 def _samples(component: Component, feasible: RealSystem) -> Samples | None:
@@ -183,18 +222,17 @@ def search(
     """All strata of a branch, level by level; every level's branches are independent tasks.
 
     singular: where known, the strata that need no search are written down at once, as steps (4)-(6) of the
-        paper do, and only {1} and {2} are searched, or where these are not known, (4) and (5) together.
+        paper do, and only the zeros of (4) or of (5) are searched.
     budget: of the whole search; what is left when it is used up comes back unexplored.
     The result does not depend on the runner's executor: branches keep their order.
     """
-    found: dict[Equations, Found] = {}
+    found: list[Found] = []
     frontier: Sequence[Branch] = (root,)
     if singular is not None:
-        found = {part.stratum.equations: part for part in _evident_strata(root, singular)}
-        frontier = [replace(root, path=path) for path in _to_search(singular)]
+        found, frontier = _started(root, singular)
+    evident = frontier[0].evident if frontier else ()
     whole = budget or Budget()
     unexplored: list[tuple[Branch, str]] = []
-    visited = {frozenset(branch.path) for branch in frontier}
     level = 0
     while frontier:
         level += 1
@@ -204,15 +242,23 @@ def search(
             if explored is None:
                 unexplored.append((branch, f"the budget of {whole.seconds:g} s for the search is used up"))
                 continue
-            if explored.undecided:
-                unexplored.append((branch, explored.undecided))
-            for part in explored.strata:
-                if _covered(branch, part) or part.equations in found:
-                    continue
-                found[part.equations] = Found(branch.path, part)
-                following.extend(_children(branch, part, visited))
+            unexplored += [(branch, reason) for reason in explored.undecided]
+            found += [Found(branch.path, stratum) for stratum in explored.strata]
+            following += explored.following
         frontier = following
-    return Exploration(tuple(found.values()), tuple(unexplored), singular is not None)
+    return Exploration(tuple(found), tuple(unexplored), evident)
+
+
+def _started(root: Branch, singular: SingularLoci) -> tuple[list[Found], list[Branch]]:
+    """The strata that need no search, and the branches where the others are."""
+    found = list(_evident_strata(root, singular))
+    evident = tuple(dict.fromkeys((*(part.stratum.defects.types for part in found), *_SIMPLE)))
+    first, loci = min(
+        (("L_O", singular.outputs), ("L_I", singular.inputs)),
+        key=lambda side: sum(len(p) for locus in side[1] for p in locus),
+    )
+    ready = replace(root, first=first, evident=evident)
+    return found, [ready.within(locus, loci[:i], root.equations) for i, locus in enumerate(loci)]
 
 
 def _evident_strata(root: Branch, singular: SingularLoci) -> Iterator[Found]:
@@ -222,19 +268,18 @@ def _evident_strata(root: Branch, singular: SingularLoci) -> Iterator[Found]:
     Where both (4) and (5) hold, but neither (iii) nor (vi), it is (RI, RO, IO, II).
     """
     inputs, outputs = singular.inputs, singular.outputs
-    regular = Stratum(root.equations, Defects(0, 0, 0, 0), {"L_I": inputs, "L_O": outputs})
+    regular = Stratum(root.equations, Defects(0, 0, 0, 0), (*inputs, *outputs))
     yield Found((), regular)
-    for own, other, name, defects in (
-        (inputs, outputs, "L_O", Defects(0, 0, 1, 0)),
-        (outputs, inputs, "L_I", Defects(0, 0, 0, 1)),
+    for own, other, defects in (
+        (inputs, outputs, Defects(0, 0, 1, 0)),
+        (outputs, inputs, Defects(0, 0, 0, 1)),
     ):
         paths = [path for path in own if path not in other]
         for i, path in enumerate(paths):
             equations = (*root.equations, *path)
-            yield Found(path, Stratum(equations, defects, {name: other}, elsewhere=tuple(paths[:i])))
+            yield Found(path, Stratum(equations, defects, other, elsewhere=tuple(paths[:i])))
     if singular.passive is None or singular.mobility is None:
         return
-    taken_out = {"L": singular.mobility, "L_p": singular.passive}
     searched = (*singular.passive, *singular.mobility)
     paths = [
         path
@@ -243,15 +288,7 @@ def _evident_strata(root: Branch, singular: SingularLoci) -> Iterator[Found]:
     ]
     for i, path in enumerate(paths):
         equations = (*root.equations, *path)
-        yield Found(path, Stratum(equations, Defects(0, 0, 1, 1), taken_out, elsewhere=tuple(paths[:i])))
-
-
-def _to_search(singular: SingularLoci) -> list[Equations]:
-    """Closed sets that together hold all configurations of type IIM or RPM."""
-    if singular.passive is None or singular.mobility is None:
-        return _intersections(singular.inputs, singular.outputs)
-    paths = dict.fromkeys((*singular.passive, *singular.mobility))
-    return [path for path in paths if not any(set(other) < set(path) for other in paths)]
+        yield Found(path, Stratum(equations, Defects(0, 0, 1, 1), searched, elsewhere=tuple(paths[:i])))
 
 
 def _intersections(one: Loci, two: Loci) -> list[Equations]:
@@ -263,29 +300,6 @@ def _intersections(one: Loci, two: Loci) -> list[Equations]:
             if not any(set(known) <= set(path) for known in paths):
                 paths.append(path)
     return paths
-
-
-def _covered(branch: Branch, part: Stratum) -> bool:
-    """Whether the part lies wholly in a locus that another branch searches."""
-    return "L_I" in branch.covered and part.defects.k_I > 0
-
-
-def _children(branch: Branch, part: Stratum, visited: set[frozenset[Polynomial]]) -> list[Branch]:
-    """The branches where the ranks of a stratum drop; a product is split into its factors."""
-    defects = part.defects
-    fresh = []
-    for name in sorted(part.loci):
-        if name in branch.covered:
-            continue
-        regular = defects.k_I == 0 and defects.k_O == 0
-        covered = ("L_I",) if regular and name == "L_O" else ()
-        for equations in (e for locus in part.loci[name] for e in split_product(locus)):
-            path = tuple(dict.fromkeys((*branch.path, *equations)))
-            if frozenset(path) in visited:
-                continue
-            visited.add(frozenset(path))
-            fresh.append(replace(branch, path=path, covered=covered))
-    return fresh
 
 
 def split_product(locus: Equations) -> list[Equations]:

@@ -5,8 +5,12 @@ Source: the first steps of decomposition by splitting, see `varieties.decomposit
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
+
+from flint import fmpq
 
 from singsym.elimination.budget import current
 from singsym.polynomials import Polynomial, Ring
@@ -107,15 +111,24 @@ def _shortened(equations: Sequence[Polynomial]) -> list[Polynomial]:
     return [p for p in work if p]
 
 
+@lru_cache(maxsize=100_000)
 def _without(p: Polynomial, q: Polynomial) -> Polynomial | None:
-    terms = dict(p.terms())
-    for monomial, c in q.terms():
-        own = terms.get(monomial)
-        if own is not None and any(monomial):
-            candidate = p - q * (own / c)
-            if len(candidate) < len(p):
-                return candidate.primitive() if candidate else candidate
-    return None
+    """p minus the multiple of q that leaves fewest terms, None where that is no gain."""
+    terms, other = _terms(p), _terms(q)
+    ratios = Counter(terms[m] / c for m, c in other.items() if m in terms)
+    if not ratios:
+        return None
+    # a term of q is lost where p has none, and gained where both cancel
+    ratio, cancelled = max(ratios.items(), key=lambda item: item[1])
+    if cancelled <= len(other) - ratios.total():
+        return None
+    candidate = p - q * ratio
+    return candidate.primitive() if candidate else candidate
+
+
+@lru_cache(maxsize=10_000)
+def _terms(p: Polynomial) -> dict[tuple[int, ...], fmpq]:
+    return dict(p.terms())
 
 
 def _parallel(equations: Sequence[Polynomial]) -> list[tuple[Polynomial, Polynomial]]:

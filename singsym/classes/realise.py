@@ -78,11 +78,11 @@ def realise(task: RealTask) -> Piece:
     piece = Piece(
         task.found.path,
         stratum.equations,
-        stratum.degenerate,
+        stratum.loci,
         stratum.defects,
         Verdict.undecided("not examined"),
     )
-    exclusions = (*task.feasible.exclusions, *stratum.degenerate)
+    exclusions = (*task.feasible.exclusions, *stratum.loci)
     system = replace(task.feasible, equations=stratum.equations, exclusions=exclusions)
     try:
         with Budget(task.seconds, task.memory_mb):

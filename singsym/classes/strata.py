@@ -9,13 +9,13 @@ V(ideal) minus V(minor), whether the ideal is prime or not.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from math import comb
 
 from singsym.classes.patches import Patch
-from singsym.classes.types import Defects
+from singsym.classes.types import Defects, SingularityType
 from singsym.elimination.budget import Undecided
 from singsym.kinematics.nonzero import Certifier
 from singsym.kinematics.placement import ConfigurationSpace
@@ -35,27 +35,21 @@ EASY_MINORS = 24
 
 @dataclass(frozen=True)
 class RankProblem:
-    """The four matrices of a mechanism, each split into blocks whose ranks add.
+    """The four matrices of a mechanism.
 
     matrices: `L L_I L_O L_p` of the reduced velocity equation, with ranks lower by `eliminated`.
-    blocks: for each of `L L_I L_O L_p` the blocks of a matrix with the same rank up to `constants`.
     N, n: the number of 1-DOF joints and the mobility.
     """
 
     matrices: Mapping[str, PolynomialMatrix]
     eliminated: int
-    blocks: Mapping[str, tuple[PolynomialMatrix, ...]]
-    constants: Mapping[str, int]
     N: int
     n: int
 
-    def defects(self, ranks: Mapping[str, int]) -> Defects:
-        """(delta, p, k_I, k_O) from the summed ranks of the blocks.
-
-        Source: theory of the four ranks; conditions (i)-(vi) of the paper, section 2.3.
-        """
-        full = {name: ranks[name] + self.constants[name] for name in ranks}
-        return Defects.of_ranks(full["L"], full["L_I"], full["L_O"], full["L_p"], self.N, self.n)
+    def defect(self, name: str, rank: int) -> int:
+        """How far a matrix is below full rank, from the rank of its reduced form: delta, p, k_I or k_O."""
+        full = self.N - self.n if name == "L_p" else self.N
+        return full - rank - self.eliminated
 
 
 @dataclass(frozen=True)
@@ -68,25 +62,18 @@ class BlockRank:
 
 @dataclass(frozen=True)
 class Stratum:
-    """The zeros of `equations` minus the loci where the ranks drop: there the types are constant.
+    """The zeros of `equations` off some loci: there the types are constant.
 
-    loci: for each of the four matrices, the loci to be taken out whose loss of rank would change the types;
-        of each tuple, not all polynomials vanish on the stratum.
+    loci: of each tuple, not all polynomials vanish on the stratum.
     component: the equations' zero set where it comes from a decomposition, else None.
     elsewhere: loci whose points in the stratum belong to another stratum of the same types as well.
     """
 
     equations: tuple[Polynomial, ...]
     defects: Defects
-    loci: Mapping[str, tuple[tuple[Polynomial, ...], ...]]
+    loci: tuple[tuple[Polynomial, ...], ...] = ()
     component: Component | None = None
     elsewhere: tuple[tuple[Polynomial, ...], ...] = ()
-
-    @property
-    def degenerate(self) -> tuple[tuple[Polynomial, ...], ...]:
-        """All loci of all matrices, without repetitions."""
-        seen = {tuple(locus): None for name in sorted(self.loci) for locus in self.loci[name]}
-        return tuple(seen)
 
 
 Samples = tuple[tuple[float, ...], ...]
@@ -96,42 +83,47 @@ Samples = tuple[tuple[float, ...], ...]
 class NotEvident(Undecided):
     """A polynomial seems to vanish on a set, and substitution alone does not show it."""
 
+    def __init__(self, polynomial: Polynomial) -> None:
+        super().__init__("a minor seems to vanish on a part of the configuration space")
+        self.polynomial = polynomial
+
 
 @dataclass(frozen=True)
 class Ground:
-    """Where ranks are asked for: a component, with points on it to guess from."""
-
-    component: Component
-    samples: Samples = ()
-
-    def vanishes(self, polynomial: Polynomial) -> bool:
-        """Whether a polynomial is zero on the component, where True is proven and False may be a guess.
-
-        A wrong False is harmless: it only makes a stratum empty and sends its closure down as a locus again.
-        """
-        ideal = self.component.ideal
-        if ideal.contains(polynomial):
-            return True
-        if self.component.prime or is_large(polynomial, self.samples):
-            return False
-        return ideal.radical_contains(polynomial)
-
-
-@dataclass(frozen=True)
-class PatchGround:
-    """The same on a patch, where only what substitution and the circles show is known to vanish."""
+    """Where ranks are asked for: a patch or one component of it, with points on it to guess from."""
 
     patch: Patch
-    certifier: Certifier
-    samples: Samples
+    samples: Samples = ()
+    component: Component | None = None
 
-    def vanishes(self, polynomial: Polynomial) -> bool:
-        """Whether a polynomial is zero on the patch; raises `NotEvident` where it seems to be, unproven."""
-        if self.certifier.normal_form(self.patch.restrict(polynomial)).is_zero:
+    @property
+    def equations(self) -> tuple[Polynomial, ...]:
+        return self.component.generators if self.component else self.patch.generators
+
+    def certifier(self, feasible: RealSystem, loci: Iterable[tuple[Polynomial, ...]]) -> Certifier:
+        """What is known of signs and zeros on the ground off the exclusions and off some loci."""
+        restrict = self.patch.restrict
+        groups = (tuple(map(restrict, group)) for group in (*feasible.exclusions, *loci))
+        rest = self.component.generators if self.component else self.patch.rest
+        positive = tuple(map(restrict, feasible.positive))
+        exclusions = tuple(group for group in groups if any(group))
+        return Certifier(ConfigurationSpace(feasible.ring, rest, exclusions, positive))
+
+    def vanishes(self, polynomial: Polynomial, certifier: Certifier) -> bool:
+        """Whether a polynomial is zero on the ground, where True is proven.
+
+        On a component False may be a guess, which only makes a stratum empty and sends its closure down as a
+        locus again.  Raises `NotEvident` on a patch where it seems to be, unproven.
+        """
+        if certifier.normal_form(self.patch.restrict(polynomial)).is_zero:
+            return True
+        if self.component is not None and self.component.ideal.contains(polynomial):
             return True
         if is_large(polynomial, self.samples):
             return False
-        raise NotEvident("a minor seems to vanish on a part of the configuration space")
+        if self.component is None:
+            raise NotEvident(polynomial)
+        return not self.component.prime and self.component.ideal.radical_contains(polynomial)
 
 
 def is_large(polynomial: Polynomial, samples: Samples) -> bool:
@@ -161,7 +153,7 @@ def _bordered(
                 yield tuple(sorted((*rows, i))), tuple(sorted((*columns, j)))
 
 
-def block_rank(block: PolynomialMatrix, ground: Ground | PatchGround) -> BlockRank:
+def block_rank(block: PolynomialMatrix, ground: Ground, certifier: Certifier) -> BlockRank:
     """The rank of a matrix on V(ideal) minus the common zeros of the minors returned.
 
     Grows a nonvanishing minor border by border until all bordering minors vanish (lemma above); of several
@@ -177,13 +169,13 @@ def block_rank(block: PolynomialMatrix, ground: Ground | PatchGround) -> BlockRa
     """
     rows, columns = _start(block, ground.samples)
     last = determinant(block.select(rows, columns)) if rows else None
-    if last is not None and ground.vanishes(last):
+    if last is not None and ground.vanishes(last, certifier):
         rows, columns, last = (), (), None
     while True:
         candidates = []
         for r, c in _bordered(block.shape, rows, columns):
             minor = determinant(block.select(r, c))
-            if minor and not ground.vanishes(minor):
+            if minor and not ground.vanishes(minor, certifier):
                 candidates.append((_weight(minor), r, c, minor))
                 if minor.is_constant:
                     break
@@ -194,7 +186,7 @@ def block_rank(block: PolynomialMatrix, ground: Ground | PatchGround) -> BlockRa
         return BlockRank(0, ())
     if last.is_constant:
         return BlockRank(len(rows), ())
-    return BlockRank(len(rows), _locus(block, ground, rows, columns))
+    return BlockRank(len(rows), _locus(block, ground, certifier, rows, columns))
 
 
 def _weight(minor: Polynomial) -> tuple[int, int]:
@@ -202,7 +194,11 @@ def _weight(minor: Polynomial) -> tuple[int, int]:
 
 
 def _locus(
-    block: PolynomialMatrix, ground: Ground | PatchGround, rows: tuple[int, ...], columns: tuple[int, ...]
+    block: PolynomialMatrix,
+    ground: Ground,
+    certifier: Certifier,
+    rows: tuple[int, ...],
+    columns: tuple[int, ...],
 ) -> tuple[Polynomial, ...]:
     """r-minors whose common zeros on V(ideal) contain the locus of lower rank: all where they are few."""
     r = len(rows)
@@ -220,7 +216,7 @@ def _locus(
     minors: dict[Polynomial, None] = {}
     for i, j in choices:
         minor = determinant(block.select(i, j))
-        if not minor or ground.vanishes(minor):
+        if not minor or ground.vanishes(minor, certifier):
             continue
         if minor.is_constant:
             return ()
@@ -265,47 +261,75 @@ def relevant(defects: Defects) -> tuple[str, ...]:
     return tuple(names)
 
 
-def stratum(problem: RankProblem, ground: Ground) -> Stratum:
-    """The generic stratum of V(ideal): its defects, and the loci that have to be taken out.
+_OWN = {
+    "L_O": SingularityType.RI | SingularityType.IO,
+    "L_I": SingularityType.RO | SingularityType.II,
+}
+"""The types where only this matrix has less than full rank: conditions (vii), (viii)."""
+_BOTH = _OWN["L_O"] | _OWN["L_I"]
 
-    For a square matrix of full rank the locus is its determinant's zero set, block by block.
+
+@dataclass(frozen=True)
+class Ranked:
+    """What the ranks on a ground come to: a stratum where the types are constant, and what is left of it.
+
+    stratum: None where its configurations are known without a search.
+    loci: closed sets whose points have to be looked at by themselves; the stratum lies off all of them.
     """
-    ranks: dict[str, int] = {}
-    loci: dict[str, tuple[tuple[Polynomial, ...], ...]] = {}
-    known: dict[PolynomialMatrix, BlockRank] = {}
-    for name, blocks in problem.blocks.items():
-        for block in blocks:
-            if block not in known:
-                known[block] = block_rank(block, ground)
-        ranks[name] = sum(known[block].rank for block in blocks)
-        loci[name] = tuple(known[block].minors for block in blocks if known[block].minors)
-    defects = problem.defects(ranks)
-    component = ground.component
-    return Stratum(component.generators, defects, {name: loci[name] for name in relevant(defects)}, component)
+
+    stratum: Stratum | None
+    loci: tuple[tuple[Polynomial, ...], ...]
 
 
-def patch_stratum(problem: RankProblem, patch: Patch, feasible: RealSystem, samples: Samples) -> Stratum:
-    """The same for a patch: the matrices are taken apart anew with the solved variables put in.
+def ranked(
+    problem: RankProblem,
+    ground: Ground,
+    feasible: RealSystem,
+    first: str = "L_O",
+    evident: tuple[SingularityType, ...] = (),
+) -> Ranked:
+    """The generic ranks on a ground off its exclusions, and the loci of lower rank that matter for the types.
 
-    A locus of lower rank is a union of common zeros of factors of minors, each a locus of its own.
+    Matrix by matrix, each taken apart anew with what is solved for put in, and with the loci of those before
+    known not to vanish.  first: `L_O` or `L_I`; where it has full rank, there is neither IIM nor RPM.
+    evident: the types whose strata are known.
+
+    >>> from singsym.polynomials import Ring
+    >>> R = Ring(("x", "y"))
+    >>> x, y = R.gens
+    >>> row = PolynomialMatrix.of(R, [[x, y]])
+    >>> parts = {name: row.select(columns=c) for name, c in (("L_I", [0]), ("L_O", [1]), ("L_p", []))}
+    >>> plane = Ground(Patch(R, {}, ()), ((1.0, 2.0),))
+    >>> ranked(RankProblem({"L": row, **parts}, 0, 1, 1), plane, RealSystem(R, ())).loci
+    ((y,), (x,))
     """
-    groups = (tuple(map(patch.restrict, group)) for group in feasible.exclusions)
-    space = ConfigurationSpace(
-        feasible.ring,
-        patch.rest,
-        tuple(g for g in groups if any(g)),
-        tuple(map(patch.restrict, feasible.positive)),
-    )
-    ground = PatchGround(patch, Certifier(space), samples)
-    ranks: dict[str, int] = {}
-    loci: dict[str, tuple[tuple[Polynomial, ...], ...]] = {}
-    for name, matrix in problem.matrices.items():
-        parts = rank_blocks(matrix.map(patch.restrict), ground.certifier)
-        found = [block_rank(block, ground) for block in parts.blocks]
-        ranks[name] = parts.constant + problem.eliminated + sum(block.rank for block in found)
-        loci[name] = tuple(e for block in found for e in union_of_loci(block.minors, ground.certifier))
-    defects = Defects.of_ranks(ranks["L"], ranks["L_I"], ranks["L_O"], ranks["L_p"], problem.N, problem.n)
-    return Stratum(patch.generators, defects, {name: loci[name] for name in relevant(defects)})
+    other = {"L_O": "L_I", "L_I": "L_O"}[first]
+    defect = {"L": 0, "L_p": 0}
+    loci: dict[tuple[Polynomial, ...], None] = {}
+
+    def examine(name: str) -> None:
+        certifier = ground.certifier(feasible, loci)
+        parts = rank_blocks(problem.matrices[name].map(ground.patch.restrict), certifier)
+        found = [block_rank(block, ground, certifier) for block in parts.blocks]
+        defect[name] = problem.defect(name, parts.constant + sum(block.rank for block in found))
+        for block in found:
+            loci.update(dict.fromkeys(union_of_loci(block.minors, certifier)))
+
+    examine(first)
+    if defect[first]:
+        examine("L_p")
+        examine("L")
+    if not defect["L"] and not defect["L_p"]:
+        possible = (_OWN[first], _BOTH) if defect[first] else (SingularityType(0), _OWN[other])
+        if set(possible) <= set(evident):
+            return Ranked(None, tuple(loci))
+    known = len(loci)
+    examine(other)
+    defects = Defects(defect["L"], defect["L_p"], defect["L_I"], defect["L_O"])
+    if other not in relevant(defects):
+        loci = dict.fromkeys(tuple(loci)[:known])
+    found = Stratum(ground.equations, defects, tuple(loci), ground.component)
+    return Ranked(None if defects.types in evident else found, tuple(loci))
 
 
 def union_of_loci(minors: tuple[Polynomial, ...], certifier: Certifier) -> tuple[tuple[Polynomial, ...], ...]:
