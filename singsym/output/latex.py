@@ -38,7 +38,8 @@ _PREAMBLE = r"""\documentclass[a4paper,10pt]{article}
 \lineskiplimit=1pt \lineskip=2pt
 \setlength{\parindent}{0pt} \setlength{\parskip}{3pt plus 1pt}
 \raggedright
-\makeatletter\def\@listi{\leftmargin\leftmargini \topsep2pt \parsep0pt \itemsep1pt}\makeatother
+\makeatletter\def\@listI{\leftmargin\leftmargini \topsep2pt \parsep0pt \itemsep1pt}
+\let\@listi\@listI\makeatother
 """
 
 _SPECIAL = str.maketrans(
@@ -326,11 +327,17 @@ def _configuration(found: Configuration, equation: VelocityEquation) -> str:
     """Moving points with their coordinates, else the variables."""
     places: dict[str, list[str]] = {}
     for name, value in moving(found.points, equation).items():
-        places.setdefault(name.rpartition(".")[0], []).append(f"{float(value):.6f}")
+        places.setdefault(name.rpartition(".")[0], []).append(_number(value))
     if places:
         return ", ".join(f"${_point(name)} = ({', '.join(place)})$" for name, place in places.items())
     values = found.coordinates.items()
-    return ", ".join(f"${symbol_latex(name)} = {float(value):.6f}$" for name, value in values)
+    return ", ".join(f"${symbol_latex(name)} = {_number(value)}$" for name, value in values)
+
+
+def _number(value: str | float) -> str:
+    """Six decimals; what is zero but for rounding is 0."""
+    number = float(value)
+    return "0" if abs(number) < 1e-14 else f"{number:.6f}".rstrip("0").rstrip(".")
 
 
 def _point(name: str) -> str:

@@ -8,11 +8,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from html import escape
 
+from singsym.classes.motions import Motion
 from singsym.classes.result import Classification, ClassResult, Piece
 from singsym.classes.types import SingularityType
 from singsym.mechanism.model import JointRate
 from singsym.output import html_math as math
 from singsym.output import html_page as html
+from singsym.output.pieces import known_by
 from singsym.polynomials import PolynomialMatrix
 
 LARGEST_MATRIX = 400
@@ -142,12 +144,13 @@ def _class_table(classification: Classification) -> str:
             f'<a href="#{target}">{number}</a>',
             escape(result.singularity_class.name),
             there,
+            known_by(classification, number),
             dimension,
             count,
             escape(", ".join(result.steps)),
         )
         rows.append((style, cells))
-    headers = ("class", "types", "there?", "dimension", "parts", "step of §3.2")
+    headers = ("class", "types", "there?", "known by", "dimension", "parts", "step of §3.2")
     return html.table(headers, rows, "The 21 classes")
 
 
@@ -168,7 +171,7 @@ def _class(classification: Classification, result: ClassResult) -> str:
     drawn = ""
     if classification.mechanism is not None and result.witnesses:
         picture = plot_class(classification, result)
-        drawn = html.figure(picture, f"figure-{number}", picture.description)
+        drawn = html.figure(picture, f"figure-{number}", _velocities(classification, result))
     size = [f"dimension {_known(result.dimension)}"]
     size += [text for text in (_count(result.points, "point"),) if text]
     if not result.points and result.components:
@@ -186,6 +189,28 @@ def _class(classification: Classification, result: ClassResult) -> str:
         f'<p><a href="#proof-{number}">How this is known</a></p></div>{drawn}</div>'
         f"{_witnesses(result)}</section>"
     )
+
+
+def _velocities(classification: Classification, result: ClassResult) -> str:
+    """The velocities of the motions in the figure of a class."""
+    from singsym.output.plot_motion import drawn_motions, rates_text
+
+    motions = drawn_motions(_motions(classification, result))
+    return "; ".join(f"{m.type}: {rates_text(m)}" for m in motions)
+
+
+def _motions(classification: Classification, result: ClassResult) -> tuple[Motion, ...]:
+    """All null motions and restrictions at the configuration that is drawn."""
+    import numpy as np
+
+    from singsym.output.plot_motion import motions_at
+
+    found = next(((w, p) for p in result.pieces for w in p.witnesses), None)
+    if found is None:
+        return ()
+    equation, coordinates = classification.equation, found[0].coordinates
+    point = np.array([float(coordinates[name]) for name in equation.space.ring.names])
+    return motions_at(equation, point, found[1].defects)
 
 
 def _distinct(result: ClassResult) -> list[Piece]:
@@ -222,20 +247,12 @@ def _piece(classification: Classification, piece: Piece) -> str:
 
 def _impossible(classification: Classification, result: ClassResult) -> str:
     """Which input and output velocities are impossible at the configuration that is drawn."""
-    import numpy as np
+    from singsym.output.plot_motion import restriction_text
 
-    from singsym.output.plot_motion import motions_at, restriction_text
-
-    found = next(((w, p) for p in result.pieces for w in p.witnesses), None)
-    if found is None:
-        return ""
-    equation = classification.equation
-    coordinates = found[0].coordinates
-    point = np.array([float(coordinates[name]) for name in equation.space.ring.names])
     lines = [
         f"<li>{'input' if m.type is SingularityType.II else 'output'} velocities must obey "
         f"{escape(restriction_text(m))}</li>"
-        for m in motions_at(equation, point, found[1].defects)
+        for m in _motions(classification, result)
         if m.restriction
     ]
     return f"<p>At this configuration:</p><ul>{''.join(lines)}</ul>" if lines else ""
