@@ -101,12 +101,11 @@ class _Placing:
     def _declare(self) -> None:
         one, zero = self.ring.one, self.ring.zero
         for link, group in self.plan.directed.items():
-            if group is None:
-                self.headings[link] = Heading(one, zero, one)
-                continue
-            c, s = (self.ring.gen(name) for name in group)
-            self.headings[link] = Heading(c, s, one)
-            self.equations.append(c**2 + s**2 - 1)
+            c, s = (one, zero) if group is None else (self.ring.gen(name) for name in group)
+            x, y = Heading(c, s, one).turn(tuple(map(self.sized.number, self.plan.turns[link])))
+            self.headings[link] = Heading(self.sized.reduced(x), self.sized.reduced(y), one)
+            if group is not None:
+                self.equations.append(c**2 + s**2 - 1)
         for pin, names in self.plan.free_pins.items():
             self.pins[pin] = (self.ring.gen(names[0]), self.ring.gen(names[1]))
         for name in self.mechanism.link(self.mechanism.ground).points:
