@@ -60,7 +60,7 @@ figcaption, .note { color: var(--faint); font-size: .92rem; }
 .class { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(22rem, 100%), 1fr)); gap: 0 2rem; }
 .class > * { min-width: 0; } .figures { display: flex; flex-wrap: wrap; gap: 1rem; }
 .figures > figure { flex: 1 1 24rem; min-width: 0; }
-.broad svg { min-width: 44rem; }
+.broad svg { max-width: none; }
 math { font-size: 1.05em; } .formula { overflow-x: auto; padding: .2rem 0; }
 mtr.labels { color: var(--faint); font-size: .8em; }
 .motion svg { display: block; width: 100%; max-width: 40rem; } .motion input { width: min(30rem, 90%); }

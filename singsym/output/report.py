@@ -14,7 +14,8 @@ from singsym.classes.types import SingularityType
 from singsym.mechanism.model import JointRate
 from singsym.output import html_math as math
 from singsym.output import html_page as html
-from singsym.output.pieces import known_by
+from singsym.output.pieces import known_by, loop_equations, moving, varying
+from singsym.output.text import number_text
 from singsym.polynomials import PolynomialMatrix
 
 LARGEST_MATRIX = 400
@@ -144,13 +145,13 @@ def _class_table(classification: Classification) -> str:
             f'<a href="#{target}">{number}</a>',
             escape(result.singularity_class.name),
             there,
-            known_by(classification, number),
             dimension,
             count,
             escape(", ".join(result.steps)),
+            known_by(classification, number),
         )
         rows.append((style, cells))
-    headers = ("class", "types", "there?", "known by", "dimension", "parts", "step of §3.2")
+    headers = ("class", "types", "there?", "dimension", "parts", "step of §3.2", "known by")
     return html.table(headers, rows, "The 21 classes")
 
 
@@ -187,7 +188,7 @@ def _class(classification: Classification, result: ClassResult) -> str:
         f"{escape(', '.join(size).capitalize())}.</p><p>Rank defects: {'; '.join(defects)}.</p>"
         f"<ul>{pieces}</ul>{_impossible(classification, result)}"
         f'<p><a href="#proof-{number}">How this is known</a></p></div>{drawn}</div>'
-        f"{_witnesses(result)}</section>"
+        f"{_witnesses(classification, result)}</section>"
     )
 
 
@@ -258,15 +259,14 @@ def _impossible(classification: Classification, result: ClassResult) -> str:
     return f"<p>At this configuration:</p><ul>{''.join(lines)}</ul>" if lines else ""
 
 
-def _witnesses(result: ClassResult) -> str:
+def _witnesses(classification: Classification, result: ClassResult) -> str:
     if not result.witnesses:
         return ""
     shown = result.witnesses[:WITNESSES]
-    labels = list(dict.fromkeys(label for w in shown for label in (w.points or w.coordinates)))
-    rows = [
-        ("", [f"{float((w.points or w.coordinates).get(label, 'nan')):.6g}" for label in labels])
-        for w in shown
-    ]
+    equation = classification.equation
+    places = [moving(w.points, equation) or varying(w.coordinates, equation) for w in shown]
+    labels = list(dict.fromkeys(label for place in places for label in place))
+    rows = [("", [number_text(place[label], 6) for label in labels]) for place in places]
     listed = html.table(
         [escape(x) for x in labels], rows, f"Configurations of class {result.singularity_class.number}"
     )
@@ -319,7 +319,7 @@ def _strata(classification: Classification) -> str:
 def _equations(classification: Classification) -> str:
     equation, reduction = classification.equation, classification.reduction
     space = equation.space
-    loops = "".join(_line(math.equation(e, longest=24)) for e in space.equations)
+    loops = "".join(_line(math.equation(e, longest=24)) for e in loop_equations(equation))
     parts = [f"<p>Configuration variables: {escape(', '.join(space.variables))}.</p>"]
     parts.append(f"<h3>Loop equations</h3>{loops}" if loops else "<p>No loop equations.</p>")
     columns = [c.label for c in equation.columns]
