@@ -44,7 +44,7 @@ def draw_spatial(axes: Any, scene: Scene, motions: Sequence[tuple[Motion, Veloci
     axes.set_aspect("equal")
     axes.axis("off")
     spherical = scene.space is Space.SPHERICAL
-    size = 2.2 if spherical else scene.size
+    size = 2.2 if spherical else float(np.ptp(scene.all_points[:, :2], axis=0).max())
     depth = _Depth(scene)
     if spherical:
         _sphere(axes)

@@ -16,7 +16,7 @@ from singsym.output import html_math as math
 from singsym.output import html_page as html
 from singsym.output.pieces import known_by, loop_equations, moving, varying
 from singsym.output.text import number_text
-from singsym.polynomials import PolynomialMatrix
+from singsym.polynomials import Polynomial, PolynomialMatrix
 
 LARGEST_MATRIX = 400
 """Matrices with more entries are left out of the page."""
@@ -181,12 +181,11 @@ def _class(classification: Classification, result: ClassResult) -> str:
         f"δ = {d.delta}, p = {d.p}, k<sub>I</sub> = {d.k_I}, k<sub>O</sub> = {d.k_O}"
         for d in (p.defects for p in result.pieces)
     )
-    pieces = "".join(f"<li>{_piece(classification, piece)}</li>" for piece in _distinct(result))
     return (
         f'<section id="class-{number}"><h3>Class {number}: {escape(result.singularity_class.name)}</h3>'
         f'<div class="class"><div><p>{escape(result.singularity_class.words.capitalize())}. '
         f"{escape(', '.join(size).capitalize())}.</p><p>Rank defects: {'; '.join(defects)}.</p>"
-        f"<ul>{pieces}</ul>{_impossible(classification, result)}"
+        f"<ul>{_pieces(classification, result)}</ul>{_impossible(classification, result)}"
         f'<p><a href="#proof-{number}">How this is known</a></p></div>{drawn}</div>'
         f"{_witnesses(classification, result)}</section>"
     )
@@ -214,14 +213,26 @@ def _motions(classification: Classification, result: ClassResult) -> tuple[Motio
     return motions_at(equation, point, found[1].defects)
 
 
-def _distinct(result: ClassResult) -> list[Piece]:
-    """One piece for each set of factors."""
-    return list({(p.path, p.exclusions): p for p in result.pieces}.values())
+def _pieces(classification: Classification, result: ClassResult) -> str:
+    """What vanishes on the pieces of a class as a list, each time with what does not."""
+    unequal: dict[str, dict[str, None]] = {}
+    for piece in result.pieces:
+        unequal.setdefault(_vanishing(classification, piece), {})[_unequal(classification, piece)] = None
+    lines = [
+        text + "".join(f'<br><span class="note">where {note}</span>' for note in notes if note)
+        for text, notes in unequal.items()
+    ]
+    return "".join(f"<li>{line}</li>" for line in lines)
 
 
-def _piece(classification: Classification, piece: Piece) -> str:
-    """What vanishes on a piece, linked to the loci, and what does not."""
-    place = {locus.factor: i for i, locus in reversed(list(enumerate(classification.loci)))}
+def _place(classification: Classification) -> dict[Polynomial, int]:
+    """The number of the first locus of each factor."""
+    return {locus.factor: i for i, locus in reversed(list(enumerate(classification.loci)))}
+
+
+def _vanishing(classification: Classification, piece: Piece) -> str:
+    """The factors that are zero on a piece, linked to their loci."""
+    place = _place(classification)
     lines = []
     for p in piece.path:
         if p in place:
@@ -231,19 +242,21 @@ def _piece(classification: Classification, piece: Piece) -> str:
             lines.append(f'<a href="#locus-{i}">{shown}</a>')
         else:
             lines.append(math.formula(math.equation(p, longest=12)))
+    return " and ".join(lines) or "everywhere"
+
+
+def _unequal(classification: Classification, piece: Piece) -> str:
+    """What is not zero on a piece: single factors, and the number of groups that are not all zero."""
+    place = _place(classification)
     factors = [f for e in piece.exclusions if len(e) == 1 for f, _ in e[0].factors()]
-    unequal = []
+    said = []
     for f in dict.fromkeys(factors):
         words = classification.loci[place[f]].words if f in place else ""
-        unequal.append(f"not {escape(words)}" if words else math.formula(math.equation(f, "≠", 8)))
-    groups = [e for e in piece.exclusions if len(e) > 1]
-    said = [[classification.loci[place[f]].words if f in place else "" for f in group] for group in groups]
-    unequal += [f"not ({escape(' and '.join(words))})" for words in said if all(words)]
-    several = [words for words in said if not all(words)]
-    if several:
-        unequal.append(f"{len(several)} group{'s' if len(several) > 1 else ''} of minors not all zero")
-    text = " and ".join(lines) or "everywhere"
-    return text + (f'<br><span class="note">where {"; ".join(unequal)}</span>' if unequal else "")
+        said.append(f"not {escape(words)}" if words else math.formula(math.equation(f, "≠", 8)))
+    groups = sum(len(e) > 1 for e in piece.exclusions)
+    if groups:
+        said.append(f"{groups} group{'' if groups == 1 else 's'} of polynomials not all zero")
+    return "; ".join(said)
 
 
 def _impossible(classification: Classification, result: ClassResult) -> str:
