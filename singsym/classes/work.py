@@ -13,7 +13,7 @@ import pickle
 import signal
 import sys
 import tempfile
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, as_completed
 from fractions import Fraction
 from pathlib import Path
@@ -112,6 +112,11 @@ def _with_engines(allowed: tuple[str, ...], function: Callable[[T], R], task: T)
         return function(task)
 
 
+def _call_off(futures: Iterable[Future[Any]]) -> None:
+    for future in futures:
+        future.cancel()
+
+
 @dataclasses.dataclass
 class Runner:
     """Maps a function over tasks: in this process, or on an executor, looking into the cache first.
@@ -154,23 +159,23 @@ class Runner:
         waiting = [i for i in range(len(tasks)) if i not in results]
         progress.report(stage, done=len(results), total=len(tasks))
         finished = self._scattered if self.executor is not None and waiting else self._in_turn
-        for i, result in finished(function, tasks, waiting):
+        for i, result in finished(function, tasks, waiting, budget):
             results[i] = result
             if self.cache is not None and not getattr(result, "provisional", False):
                 self.cache.put(paths[i], result)
             progress.report(stage, done=len(results), total=len(tasks))
-            if budget.remaining() == 0.0:
-                break
         return results
 
     def _in_turn(
-        self, function: Callable[[T], R], tasks: Sequence[T], waiting: Sequence[int]
+        self, function: Callable[[T], R], tasks: Sequence[T], waiting: Sequence[int], budget: Budget
     ) -> Iterator[tuple[int, R]]:
         for i in waiting:
             yield i, function(tasks[i])
+            if budget.remaining() == 0.0:
+                return
 
     def _scattered(
-        self, function: Callable[[T], R], tasks: Sequence[T], waiting: Sequence[int]
+        self, function: Callable[[T], R], tasks: Sequence[T], waiting: Sequence[int], budget: Budget
     ) -> Iterator[tuple[int, R]]:
         assert self.executor is not None
         allowed = engines.allowed()
@@ -180,9 +185,13 @@ class Runner:
         try:
             for future in as_completed(futures):
                 yield futures[future], future.result()
-        finally:
-            for future in futures:
-                future.cancel()
+                if budget.remaining() == 0.0:
+                    break
+        except Exception:
+            _call_off(futures)
+            raise
+        # not on an interruption: a pool whose processes die while futures are cancelled never ends
+        _call_off(futures)
 
 
 class _Processes(ProcessPoolExecutor):
