@@ -224,8 +224,13 @@ class _Placing:
         if joint.kind is not JointKind.R or not {joint.first, joint.second} <= self.headings.keys():
             return {}
         one, two = self.headings[joint.first], self.headings[joint.second]
+        a, b = (one.x, one.y), (two.x, two.y)
+        if joint.reference is not None:
+            a = one.turn(self._axis(joint.first, joint.reference[0]))
+            b = two.turn(self._axis(joint.second, joint.reference[1]))
+        cosine, sine = a[0] * b[0] + a[1] * b[1], a[0] * b[1] - a[1] * b[0]
         return {
             joint.name: JointValue(
-                one.x * two.x + one.y * two.y, one.x * two.y - one.y * two.x, one.scale * two.scale
+                self.sized.reduced(cosine), self.sized.reduced(sine), one.scale * two.scale
             )
         }
