@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from singsym.cli.screen import UserError, emit_data, emit_page, say
-from singsym.mechanism import Mechanism, MechanismError, check, library, load
+from singsym.mechanism import Mechanism, MechanismError, check, load
 from singsym.mechanism.problems import Problem
 
 if TYPE_CHECKING:
@@ -60,15 +60,12 @@ def complaint(problems: tuple[Problem, ...]) -> str:
 
 def run_list(chosen: argparse.Namespace) -> int:
     """`singsym list`."""
-    mechanisms = [load(name) for name in library.names()]
-    if chosen.format == "json":
-        emit_data(
-            [{"name": m.name, "N": m.N, "n": m.n, "title": m.title, "source": m.source} for m in mechanisms]
-        )
-        return 0
-    from singsym.output.text import library_page
+    from singsym.output.gallery_list import library_data, library_page
 
-    emit_page(library_page(mechanisms))
+    if chosen.format == "json":
+        emit_data(library_data())
+    else:
+        emit_page(library_page())
     return 0
 
 

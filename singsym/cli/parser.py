@@ -86,6 +86,8 @@ def parser() -> argparse.ArgumentParser:
         "plot", "pictures", "draw the mechanism, a class or the singularity curves", _mechanism, _work, _shown
     )
     add("report", "pictures", "one HTML page with everything about a mechanism", _mechanism, _work, _output)
+    words = "a web page of each mechanism of the library, and an index"
+    add("gallery", "gallery", words, _work, _folder).set_defaults(settings=[], formulation="auto")
     add("engines", "tools", "which engines there are, and how to get the others", _install, short)
     add("completion", "tools", "a script that completes commands in a shell", _shell)
     return top
@@ -217,6 +219,15 @@ def _mobility(command: argparse.ArgumentParser) -> None:
 def _output(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "-o", "--output", metavar="FILE", help="to write (default: named after the mechanism)"
+    )
+
+
+def _folder(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "-o", "--output", default="gallery", metavar="DIR", help="folder to write to (default: %(default)s)"
+    )
+    command.add_argument(
+        "--only", nargs="+", default=[], metavar="NAME", help="these mechanisms and no others"
     )
 
 

@@ -15,6 +15,7 @@ import sympy
 
 from singsym.kinematics.numberfield import Atoms, NumberField, number_field
 from singsym.mechanism.model import Mechanism, Parameter
+from singsym.mechanism.problems import MechanismError, Problem
 from singsym.polynomials import AlgebraicConstant, Polynomial, Ring
 
 
@@ -104,7 +105,7 @@ class Dimensions:
         doubled = sorted({n for n in names if names.count(n) > 1})
         if doubled:
             raise ValueError(
-                f"{doubled} would be used twice as names of a ring: rename a parameter or a point"
+                f"{doubled} would be used twice as names of a ring: rename a parameter, a point or a joint"
             )
         return Ring(names, constants=self.constants)
 
@@ -367,9 +368,19 @@ class Sized:
 def dimensions(mechanism: Mechanism, variables: Sequence[str]) -> Sized:
     """The mechanism's numbers in the ring of these configuration variables.
 
+    Raises `MechanismError` where a parameter has the name of a variable or of a number.
+
     >>> from singsym.mechanism import load
     >>> dimensions(load("fourbar"), ("x",)).ring
     Q[x]
     """
     found = Dimensions.of(mechanism)
+    taken = {*variables, *(a.name for a in found.auxiliaries), *(c.name for c in found.constants)}
+    doubled = [p.name for p in found.ranges if p.name in taken]
+    if doubled:
+        said, expected = "the name of a configuration variable or a number, too", "another name"
+        advice = "rename the parameter"
+        raise MechanismError(
+            Problem(f"parameters.{name}", said, expected, advice, mechanism.origin) for name in doubled
+        )
     return Sized(found, found.ring(variables))

@@ -12,7 +12,7 @@ from difflib import get_close_matches
 import networkx
 import sympy
 
-from singsym.mechanism.expressions import expression
+from singsym.mechanism.expressions import expression, is_angle
 from singsym.mechanism.model import (
     Joint,
     JointKind,
@@ -75,7 +75,9 @@ def _names(mechanism: Mechanism) -> Iterator[Finding]:
         for name, count in Counter(names).items():
             if count > 1:
                 yield f"{place}.{name}", f"{count} {place} of this name", "each name once", ""
-    if mechanism.ground not in groups["links"]:
+    if not groups["links"]:
+        yield "links", "no links", "a table [links], and [joints] between them", "see `singsym new`"
+    elif mechanism.ground not in groups["links"]:
         advice = 'name the fixed link "ground", or say ground = "NAME"'
         expected = f"a link among {_listed(groups['links'])}"
         yield "ground", f"no link {mechanism.ground!r}", expected, advice
@@ -117,7 +119,9 @@ def _joint_axes(joint: Joint, mechanism: Mechanism) -> Iterator[Finding]:
             known = mechanism.link(name).axes
             if axis not in known:
                 place, found = f"joints.{joint.name}.{key}", f"no axis {axis!r} in link {name!r}"
-                yield place, found, f"an axis of it: {_listed(known)}", _suggest(axis, known)
+                unit = ", ".join(["1", "0", "0"][: 2 if mechanism.space is Space.PLANAR else 3])
+                advice = _suggest(axis, known) or f"give the link axes = {{ {shorten(axis)} = [{unit}] }}"
+                yield place, found, f"an axis of it: {_listed(known)}", advice
 
 
 def _parameters(mechanism: Mechanism) -> Iterator[Finding]:
@@ -142,10 +146,16 @@ def _parameters(mechanism: Mechanism) -> Iterator[Finding]:
         elif p.value is None and low is not None and high is not None and (high - low).is_positive is False:
             yield place, f"the range from {low} to {high}", "the lower bound first", ""
     symbols = {sympy.Symbol(p.name) for p in resolved.parameters}
+    depends = networkx.DiGraph()
     for p in resolved.parameters:
         for bound in (p.low, p.high):
-            if bound is not None and (fault := _fault(bound, symbols)):
-                yield f"parameters.{p.name}.between", *fault
+            if bound is not None:
+                depends.add_edges_from((p.name, str(s)) for s in bound.free_symbols)
+                if fault := _fault(bound, symbols):
+                    yield f"parameters.{p.name}.between", *fault
+    if not networkx.is_directed_acyclic_graph(depends):
+        found = " -> ".join(edge[0] for edge in networkx.find_cycle(depends))
+        yield "parameters", f"ranges in a circle: {found}", "ranges that do not depend on each other so", ""
 
 
 def _fault(value: sympy.Expr, symbols: set[sympy.Symbol]) -> tuple[str, str, str] | None:
@@ -155,7 +165,12 @@ def _fault(value: sympy.Expr, symbols: set[sympy.Symbol]) -> tuple[str, str, str
         return f"the unknown name {unknown[0]!r}", f"a parameter among {_listed(map(str, symbols))}", ""
     if value.has(sympy.pi) and not value.is_algebraic and not _algebraic_parts(value):
         return shorten(value), NOT_ALGEBRAIC, "use pi and deg inside sin and cos"
-    if value.has(sympy.zoo, sympy.nan, sympy.oo, sympy.Float) or value.is_real is False:
+    circular = (f for f in value.atoms(sympy.sin, sympy.cos) if f.args[0].is_number)
+    if wrong := next((f for f in circular if not is_angle(f.args[0])), None):
+        return shorten(wrong), NOT_ALGEBRAIC, "write degrees as 40 deg"
+    if value.has(sympy.zoo, sympy.nan):
+        return "a division by zero", "a number", "see the values of its parameters"
+    if value.has(sympy.oo, sympy.Float) or value.is_real is False:
         return shorten(value), NOT_ALGEBRAIC, ""
     if symbols and not value.is_polynomial(*symbols):
         names = _listed(sorted(map(str, value.free_symbols)))
@@ -186,6 +201,23 @@ def _dimensions(mechanism: Mechanism) -> Iterator[Finding]:
     for joint in mechanism.joints:
         if joint.pitch is not None and (fault := _fault(joint.pitch, symbols)):
             yield f"joints.{joint.name}.pitch", *fault
+    for place, values in _bounds(mechanism):
+        for value in values:
+            if value is not None and (fault := _fault(value, symbols | _quantities(value))):
+                yield place, *fault
+
+
+def _bounds(mechanism: Mechanism) -> Iterator[tuple[str, tuple[sympy.Expr | None, ...]]]:
+    """Expressions of limits and exclusions, with their places."""
+    for limit in mechanism.limits:
+        yield f"limits.{limit.expression}", (limit.expression, limit.low, limit.high)
+    for exclusion in mechanism.exclusions:
+        yield f"exclusions.{exclusion.words}", (exclusion.expression,)
+
+
+def _quantities(value: sympy.Expr) -> set[sympy.Symbol]:
+    """Coordinates and joint quantities: names with a dot or a parenthesis."""
+    return {s for s in value.free_symbols if "." in s.name or "(" in s.name}
 
 
 def _vanishes(value: sympy.Expr) -> bool:
@@ -272,7 +304,7 @@ def _outputs(mechanism: Mechanism) -> Iterator[Finding]:
     for output in mechanism.outputs:
         yield from _output(output, mechanism)
         count += 1 if isinstance(output, JointRate) else len(output.components)
-    if count != mechanism.n:
+    if mechanism.n and count != mechanism.n:
         found = f"{count} output components"
         yield "output", found, f"{mechanism.n}, as many as inputs", "choose components = [...]"
 

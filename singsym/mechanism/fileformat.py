@@ -5,6 +5,7 @@ Source: singsym's own format, in TOML (https://toml.io); the starter file explai
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
@@ -27,7 +28,9 @@ KEYS = (
     "name", "title", "source", "description", "space", "ground", "formulation", "mobility",
     "inputs", "output", "parameters", "links", "joints", "dh", "limits", "exclusions",
 )  # fmt: skip
-FORMULATIONS = ("auto", "planar", "spherical", "joint", "natural")
+FORMULATIONS = ("auto", "planar", "spherical", "joint", "natural", "quaternion")
+_PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*\.[ \t]*"""
+_DEEP_KEY = re.compile(rf"(?:{_PART}){{50}}")
 
 
 def load(name: str | Path) -> Mechanism:
@@ -80,11 +83,18 @@ def loads(text: str, origin: str = "") -> Mechanism:
     if len(text) > MAX_SIZE:
         found, expected = f"{len(text)} characters", f"a mechanism file of at most {MAX_SIZE}"
         raise MechanismError([Problem("file", found, expected, file=origin)])
+    if deep := _DEEP_KEY.search(text):
+        # the time that the TOML reader takes grows with the square of a key's parts
+        found, line = f"the key {shorten(deep[0])!r}", text.count("\n", 0, deep.start()) + 1
+        raise MechanismError([Problem(f"line {line}", found, "keys of fewer than 50 parts", file=origin)])
     try:
         data = tomllib.loads(text, parse_float=DecimalText)
     except tomllib.TOMLDecodeError as error:
+        twice = "Cannot overwrite a value" in str(error) or "Cannot declare" in str(error)
+        found = f"a name for the second time: {error}" if twice else f"no TOML: {error}"
+        expected = "each name once in a table" if twice else "TOML"
         advice = "see `singsym new` for an example"
-        raise MechanismError([Problem("file", f"no TOML: {error}", "TOML", advice, origin)]) from None
+        raise MechanismError([Problem("file", found, expected, advice, origin)]) from None
     except (RecursionError, ValueError) as error:
         # int() refuses more than 4300 digits, and the parser recurses on nested lists.
         found = "lists nested too deep" if isinstance(error, RecursionError) else f"no TOML: {error}"
@@ -116,7 +126,8 @@ def read(data: Mapping[str, Any], origin: str = "") -> tuple[Mechanism, tuple[Pr
     reader = Reader(origin)
     top = reader.table(data, "", KEYS)
     words = {key: reader.text(top.get(key, ""), key) for key in ("name", "title", "source", "description")}
-    reader.space = _choice(top, "space", [s.value for s in Space], "planar", reader, Space)
+    usual = "spatial" if "dh" in top else "planar"
+    reader.space = _choice(top, "space", [s.value for s in Space], usual, reader, Space)
     formulation = _choice(top, "formulation", FORMULATIONS, "auto", reader, str)
     parameters = _read_parameters(top.get("parameters", {}), reader)
     if "dh" in top:
@@ -185,14 +196,16 @@ def _read_parameters(value: Any, reader: Reader) -> tuple[Parameter, ...]:
         if not read or ("between" in read and ("above" in read or "below" in read)):
             expected = "value = ..., between = [low, high], above = low or below = high"
             reader.report(place, "no value and no range" if not read else shorten(entry), expected)
-        low, high = read.get("above"), read.get("below")
+        low, high, end_place = read.get("above"), read.get("below"), place
         if "between" in read:
+            end_place = f"{place}.between"
             ends = reader.items(read["between"], f"{place}.between")
             if len(ends) != 2:
                 reader.report(f"{place}.between", kind_of(read["between"]), "[low, high]")
                 ends = [None, None]
             low, high = ends
-        bounds = [None if end is None else reader.expression(end, place) for end in (low, high)]
+        bounds = [None if end is None else reader.expression(end, end_place) for end in (low, high)]
         number = reader.expression(read["value"], f"{place}.value") if "value" in read else None
         parameters.append(Parameter(name, number, *bounds))
-    return tuple(parameters)
+    reader.ranges = tuple(parameters)
+    return reader.ranges

@@ -14,6 +14,7 @@ from singsym.mechanism.model import Joint, JointKind, Link, Space
 from singsym.mechanism.reader import Reader, kind_of
 
 _KEYS = ("type", "links", "at", "axis", "pitch", "reference")
+_USERS = {"pitch": (JointKind.H,), "reference": (JointKind.R, JointKind.H, JointKind.C)}
 
 
 def read_joints(value: Any, links: Sequence[Link], reader: Reader) -> tuple[Joint, ...]:
@@ -28,7 +29,9 @@ def read_joints(value: Any, links: Sequence[Link], reader: Reader) -> tuple[Join
         reader.name(name, place)
         if isinstance(entry, str):
             entry = {"type": entry}
-        joints += _read_joint(name, reader.table(entry, place, _KEYS), links, place, reader)
+        table = reader.table(entry, place, _KEYS, 'a table, or the type as text, as "R"')
+        if table or entry == {}:
+            joints += _read_joint(name, table, links, place, reader)
     return tuple(joints)
 
 
@@ -39,6 +42,10 @@ def _read_joint(
     spherical = reader.space is Space.SPHERICAL
     at = entry.get("at", "O" if spherical else name)
     axis = _axis_default(name, entry, kind, reader)
+    useless = [key for key, users in _USERS.items() if kind not in users]
+    if axis is None:
+        useless.append("axis")
+    reader.unused(entry, useless, place, f"a {reader.space} joint {kind}")
     if "links" in entry:
         chain = reader.names(entry["links"], f"{place}.links")
     elif spherical:
@@ -49,7 +56,9 @@ def _read_joint(
         what = "axis" if spherical else "point"
         found = "links " + ", ".join(chain) if chain else "no links"
         advice = f'name the {what} in each link, or write links = ["one", "other"]'
-        reader.report(place, found, f"two or more links that have the {what} {name}", advice)
+        # links that could not be read have no points, and were reported as such
+        if "links" in entry or not any(p.place.startswith("links.") for p in reader.problems):
+            reader.report(place, found, f"two or more links that have the {what} {name}", advice)
         return []
     points = _each(at, len(chain), f"{place}.at", reader)
     axes = None if axis is None else _each(axis, len(chain), f"{place}.axis", reader)

@@ -12,7 +12,7 @@ from typing import Any
 import sympy
 
 from singsym.mechanism.model import Link, Space, Vector
-from singsym.mechanism.reader import Reader
+from singsym.mechanism.reader import Reader, kind_of
 
 _KEYS = ("points", "axes", "length", "sides", "mirror", "arc")
 _PARTS = re.compile(r"[A-Z][0-9]*")
@@ -27,7 +27,9 @@ def read_links(value: Any, reader: Reader) -> tuple[Link, ...]:
         short = "arc" if reader.space is Space.SPHERICAL else "length"
         if isinstance(entry, (str, Rational, float, sympy.Expr)):
             entry = {short: entry}
-        links.append(_read_link(name, reader.table(entry, place, _KEYS), place, reader))
+        expected = f"a table such as {{ points = {{ ... }} }}, or the {short}"
+        table = reader.table(entry, place, _KEYS, expected)
+        links.append(_read_link(name, table, place, reader) if table or entry == {} else Link(name, {}, {}))
     return tuple(links)
 
 
@@ -49,7 +51,11 @@ def _read_link(name: str, entry: dict[str, Any], place: str, reader: Reader) -> 
         axes = reader.vectors(entry["axes"], f"{place}.axes")
     if reader.space is Space.SPHERICAL and not points:
         points = {"O": (sympy.Integer(0),) * 3}
-    if not points and not axes:
+    if "mirror" in entry and ("sides" not in entry or not isinstance(entry["mirror"], bool)):
+        reader.report(f"{place}.mirror", kind_of(entry["mirror"]), "mirror = true beside sides")
+    if "sides" in entry:
+        reader.unused(entry, ("points",), place, "sides")
+    if not points and not axes and not {"length", "sides", "arc"} & entry.keys():
         reader.report(place, "no points", "points, a length or sides", "write points = { A = [0, 0] }")
     return Link(name, points, axes)
 
@@ -66,9 +72,7 @@ def _ends(name: str, given: Any, place: str, reader: Reader) -> tuple[str, str]:
 
 
 def _binary(name: str, entry: dict[str, Any], place: str, reader: Reader) -> dict[str, Vector]:
-    length = reader.expression(entry["length"], f"{place}.length")
-    if length.is_number and not length.is_positive:
-        reader.report(f"{place}.length", str(length), "a positive length")
+    length = reader.length(entry["length"], f"{place}.length")
     first, second = _ends(name, entry.get("points"), f"{place}.points", reader)
     zero = sympy.Integer(0)
     return {first: (zero,) * reader.size, second: (length,) + (zero,) * (reader.size - 1)}
@@ -85,9 +89,9 @@ def _triangle(entry: dict[str, Any], place: str, reader: Reader) -> dict[str, Ve
         if len(ends) != 2 or "".join(ends) != key:
             reader.report(place, repr(key), "sides named by their two points, as AB")
             return {}
-        length = reader.expression(value, f"{place}.{key}")
-        if length.is_number and not length.is_positive:
-            reader.report(f"{place}.{key}", str(length), "a positive length")
+        before = len(reader.problems)
+        length = reader.length(value, f"{place}.{key}")
+        if len(reader.problems) > before:
             return {}
         sides[frozenset(ends)] = length
         order += [end for end in ends if end not in order]

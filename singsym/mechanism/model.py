@@ -83,7 +83,8 @@ class Joint:
     pitch: H only, length per radian.
     reference: R, H, C: an axis of each link, at right angles to the joint's, that coincide at angle zero;
         None: angle zero is where the two links' frames are as parallel as the joint allows.
-    Joints P and E keep what rotation they forbid as it is when the two links' frames are parallel.
+    Joints P and E keep the rotation that they forbid as it is where the two links' frames are parallel, or as
+    near to that as the axis, being one direction of space, allows.
     """
 
     name: str

@@ -65,10 +65,14 @@ def _read_output(value: Any, place: str, links: Sequence[Link], reader: Reader) 
         reader.report(place, kind_of(value) if not kinds else " and ".join(kinds), expected)
         return JointRate("")
     what = reader.text(entry[kinds[0]], f"{place}.{kinds[0]}")
+    idle = {"twist": ("link",), "velocity": ("at",), "rate": ("link", "at", "components")}
+    reader.unused(entry, idle[kinds[0]], place, kinds[0])
     if kinds[0] == "rate":
         return JointRate(what)
     given = entry.get("components")
     chosen = None if given is None else tuple(reader.texts(given, f"{place}.components"))
+    if chosen == ():
+        reader.report(f"{place}.components", "an empty list", "one component or more")
     if kinds[0] == "twist":
         body = next((link for link in links if link.name == what), None)
         first = next(iter(body.points), "") if body is not None else ""
@@ -99,8 +103,6 @@ def read_limits(value: Any, known: Quantities, reader: Reader) -> tuple[Limit, .
         if subject.is_Symbol and name.startswith("angle("):
             limits.append(_angle_limit(name[6:-1], pair, place, reader))
             continue
-        if any(s.name.startswith("angle(") for s in subject.free_symbols):
-            reader.report(place, text, "angle(JOINT) alone, or cos(JOINT) and sin(JOINT)")
         low, high = (None if b is None else reader.expression(b, place) for b in pair)
         if low is not None and high is not None and (high - low).is_negative:
             reader.report(place, f"[{low}, {high}]", "the lower bound first")
@@ -134,7 +136,11 @@ def read_exclusions(value: Any, known: Quantities, reader: Reader) -> tuple[Excl
             points = tuple(reader.names(read["coincide"], place))
             exclusions.append(Exclusion("coincide", points, words=words))
         elif set(read) == {"zero"}:
-            subject = _parse(reader.text(read["zero"], place), known, place, reader)
+            if not (text := reader.text(read["zero"], place)):
+                continue
+            subject = _parse(text, known, place, reader)
+            if subject.is_Symbol and str(subject).startswith("angle("):
+                reader.report(place, text, "cos(JOINT) and sin(JOINT), in which conditions are polynomials")
             exclusions.append(Exclusion("zero", expression=subject, words=words))
         else:
             found = kind_of(entry)
@@ -143,8 +149,17 @@ def read_exclusions(value: Any, known: Quantities, reader: Reader) -> tuple[Excl
 
 
 def _parse(text: str, known: Quantities, place: str, reader: Reader) -> sympy.Expr:
+    """A polynomial in coordinates and joint quantities, or the angle of a joint alone."""
     try:
-        return parse(text, reader.parameters, quantities=known, place=place, file=reader.file)
+        read = parse(text, reader.parameters, quantities=known, place=place, file=reader.file)
     except MechanismError as error:
         reader.problems.extend(error.problems)
         return sympy.Integer(0)
+    spoken = [s for s in read.free_symbols if s.name not in reader.parameters]
+    if not spoken:
+        reader.report(place, text, "something that moves, as cos(A), length(P) or a coordinate C.x")
+    elif not read.is_polynomial(*spoken):
+        reader.report(place, text, f"a polynomial in {', '.join(sorted(s.name for s in spoken))}")
+    elif not read.is_Symbol and any(s.name.startswith("angle(") for s in spoken):
+        reader.report(place, text, "angle(JOINT) alone, or cos(JOINT) and sin(JOINT)")
+    return read

@@ -36,8 +36,13 @@ class Problem:
 
     def __str__(self) -> str:
         where = ": ".join(part for part in (self.file, self.place) if part)
-        said = f"found {self.found}; expected {self.expected}"
-        return f"{where}: {said}" + (f"; {self.advice}" if self.advice else "")
+        said = f"{where}: found {self.found}; expected {self.expected}"
+        return _printable(said + (f"; {self.advice}" if self.advice else ""))
+
+
+def _printable(text: str) -> str:
+    """Text of a file as a terminal may show it: control characters escaped."""
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
 
 
 class MechanismError(ValueError):

@@ -6,14 +6,16 @@ Source: singsym's own; TOML is https://toml.io.
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from difflib import get_close_matches
+from itertools import product
+from numbers import Number
 from typing import Any
 
 import sympy
 
-from singsym.mechanism.expressions import RESERVED, expression, is_angle
-from singsym.mechanism.model import Space, Vector
+from singsym.mechanism.expressions import RESERVED, DecimalText, expression, is_angle
+from singsym.mechanism.model import Parameter, Space, Vector
 from singsym.mechanism.problems import MechanismError, Problem, shorten
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
@@ -23,8 +25,17 @@ NOT_ALGEBRAIC = "a number made of rationals, roots and sin, cos of rational mult
 
 def kind_of(value: Any) -> str:
     """A value with the name of its TOML type, for messages."""
-    kinds = ((bool, "boolean"), (Mapping, "table"), (str, "text"), (Sequence, "list"))
-    kind = next((name for kind, name in kinds if isinstance(value, kind)), "number")
+    if value is None:
+        return "nothing"
+    kinds: tuple[tuple[type, str], ...] = (
+        (bool, "boolean"),
+        (DecimalText, "number"),
+        (str, "text"),
+        (Mapping, "table"),
+        (Sequence, "list"),
+        (Number, "number"),
+    )
+    kind = next((name for kind, name in kinds if isinstance(value, kind)), type(value).__name__)
     return f"the {kind} {shorten(value)!r}" if kind == "text" else f"the {kind} {shorten(value)}"
 
 
@@ -35,6 +46,7 @@ class Reader:
         self.file = file
         self.problems: list[Problem] = []
         self.parameters: frozenset[str] = frozenset()
+        self.ranges: tuple[Parameter, ...] = ()
         self.space = Space.PLANAR
 
     def report(self, place: str, found: str, expected: str, advice: str = "") -> None:
@@ -45,10 +57,12 @@ class Reader:
         """The number of coordinates of a point."""
         return 2 if self.space is Space.PLANAR else 3
 
-    def table(self, value: Any, place: str, keys: Collection[str] | None = None) -> dict[str, Any]:
+    def table(
+        self, value: Any, place: str, keys: Collection[str] | None = None, expected: str = "a table"
+    ) -> dict[str, Any]:
         """A table, with no other keys than these where they are given."""
         if not isinstance(value, Mapping):
-            self.report(place, kind_of(value), "a table")
+            self.report(place, kind_of(value), expected)
             return {}
         if keys is not None:
             for key in value:
@@ -58,10 +72,17 @@ class Reader:
                     self.report(place, f"the key {shorten(key)!r}", f"keys among {', '.join(keys)}", advice)
         return {str(k): v for k, v in value.items()}
 
+    def unused(self, given: Collection[str], keys: Collection[str], place: str, by: str) -> None:
+        """Report those keys that are given where nothing uses them."""
+        for key in keys:
+            if key in given:
+                self.report(f"{place}.{key}", f"the key {key!r}", f"no such key with {by}", "leave it out")
+
     def text(self, value: Any, place: str) -> str:
-        if isinstance(value, str):
+        if isinstance(value, str) and all(c.isprintable() or c in "\n\r\t" for c in value):
             return str(value)
-        self.report(place, kind_of(value), "text in quotes")
+        found = f"a control character in {shorten(value)!r}" if isinstance(value, str) else kind_of(value)
+        self.report(place, found, "text in quotes")
         return ""
 
     def name(self, value: Any, place: str) -> str:
@@ -91,6 +112,37 @@ class Reader:
         except MechanismError as error:
             self.problems.extend(error.problems)
             return sympy.Symbol("unreadable")
+
+    def length(self, value: Any, place: str) -> sympy.Expr:
+        """An expression that is positive for all values of the parameters in their ranges."""
+        read = self.expression(value, place)
+        values = {sympy.Symbol(p.name): p.value for p in self.ranges if p.value is not None}
+        settled = read
+        for _ in values:
+            settled = settled.xreplace(values)
+        if settled.is_number:
+            if not settled.is_positive:
+                found = str(read) if read == settled else f"{read} = {settled}"
+                self.report(place, found, "a positive length")
+        elif negative := next((c for c in self._corners(settled) if settled.xreplace(c).is_negative), None):
+            where = ", ".join(f"{name} near {end}" for name, end in negative.items())
+            advice = f"narrow the range of {', '.join(map(str, negative))}"
+            self.report(place, f"{read}, negative for {where}", "a positive length", advice)
+        return read
+
+    def _corners(self, value: sympy.Expr) -> Iterator[dict[sympy.Symbol, sympy.Expr]]:
+        """Ends of the ranges of a few parameters in an expression, far numbers where a range has no end."""
+        named = {sympy.Symbol(p.name): p for p in self.ranges}
+        symbols = sorted(value.free_symbols, key=str)
+        if len(symbols) > 6 or not all(s in named for s in symbols):
+            return
+        far = sympy.Integer(10) ** 9
+        lows = [-far if (low := named[s].low) is None else low for s in symbols]
+        highs = [far if (high := named[s].high) is None else high for s in symbols]
+        if all(end.is_number for end in (*lows, *highs)):
+            yield from (
+                dict(zip(symbols, corner, strict=True)) for corner in product(*zip(lows, highs, strict=True))
+            )
 
     def angle(self, value: Any, place: str) -> sympy.Expr:
         """An angle in radians: a rational multiple of pi, or a bare rational, which is in degrees."""

@@ -11,24 +11,24 @@ from dataclasses import dataclass
 from html import escape
 
 import numpy as np
-from numpy.typing import NDArray
 
 from singsym.mechanism.model import JointKind, Space
 from singsym.output.plot_curves import Coordinate, Trace
 from singsym.output.plot_scene import Scene, Stage
-
-Floats = NDArray[np.float64]
+from singsym.output.plot_style import Floats
+from singsym.output.plot_view import viewpoint
 
 FRAMES = 72
 """Configurations along each arc."""
 
 _WIDTH, _HEIGHT, _MARGIN = 640, 480, 45
-_VIEW = np.array([[0.88, -0.28], [0.47, 0.53], [0.0, 0.8]])
+_FOOT = "M0 0l-13 22h26zM-20 22h40M-14 22l-7 8M-3 22l-7 8M8 22l-7 8M19 22l-7 8"
+_DIAMOND = "M0 -9l9 9l-9 9l-9 -9z"
 
 
 @dataclass(frozen=True)
 class _Shape:
-    """An SVG element and the places, by index, that it follows."""
+    """An SVG element and the places, by index, that it follows; `text`: a label, or the outline of a path."""
 
     kind: str
     style: str
@@ -49,8 +49,9 @@ def motion(stage: Stage, traces: Sequence[Trace]) -> str:
         return ""
     sampled = [(label, _resampled(arc)) for label, arc in arcs]
     first = stage.scene(sampled[0][1][0])
+    view = np.eye(2) if first.space is Space.PLANAR else viewpoint(first)[:2]
     shapes = _shapes(first)
-    projected = [np.array([_flat(stage.scene(p)) for p in points]) for _, points in sampled]
+    projected = [np.array([_places(stage.scene(p)) @ view.T for p in points]) for _, points in sampled]
     curves = []
     inputs = [
         Coordinate(label, stage.equation)
@@ -114,21 +115,19 @@ def _resampled(line: Floats) -> Floats:
     return np.array([np.interp(wanted, along, column) for column in line.T]).T
 
 
-def _flat(scene: Scene) -> Floats:
-    """All places that shapes follow, in two coordinates: corners of links, joints, ends of slides, names."""
+def _places(scene: Scene) -> Floats:
+    """All places that shapes follow: corners of links, joints, ends of slides and axes, outputs, names."""
     places = [p for body in scene.bodies for p in body.points.values()]
     places += [m.place for m in scene.marks]
     half = 0.06 * scene.size
     for mark in scene.marks:
         shift = half * mark.direction if mark.direction is not None else 0 * mark.place
         places += [mark.place - shift, mark.place + shift]
-    places += list(scene.names.values())
-    stacked = np.array(places)
-    return stacked if stacked.shape[1] == 2 else np.asarray(stacked @ _VIEW, dtype=np.float64)
+    return np.array([*places, *scene.outputs, *scene.names.values()])
 
 
 def _shapes(scene: Scene) -> list[_Shape]:
-    """What is drawn, in the order of `_flat`."""
+    """What is drawn, in the order of `_places`."""
     shapes: list[_Shape] = []
     index = 0
     for body in scene.bodies:
@@ -137,8 +136,13 @@ def _shapes(scene: Scene) -> list[_Shape]:
         if body.ground and scene.space is Space.PLANAR:
             continue
         style = "ground" if body.ground else "platform" if body.output else "link"
-        if len(corners) > 1:
-            shapes.append(_Shape("polygon" if len(corners) > 2 else "polyline", style, corners))
+        if len(corners) > 2:
+            shapes.append(_Shape("polygon", style, corners))
+        elif len(corners) == 2:
+            shapes += [
+                _Shape("polyline", f"{style} edge", corners),
+                _Shape("polyline", f"{style} bar", corners),
+            ]
     marks = index
     ends = marks + len(scene.marks)
     for k, mark in enumerate(scene.marks):
@@ -148,9 +152,12 @@ def _shapes(scene: Scene) -> list[_Shape]:
             shapes.append(_Shape("polyline", f"{kind} {role}", (ends + 2 * k, ends + 2 * k + 1)))
         fixed = " fixed" if mark.grounded else ""
         if fixed and scene.space is Space.PLANAR and mark.joint.kind is not JointKind.P:
-            shapes.append(_Shape("path", "foot", (marks + k,)))
+            shapes.append(_Shape("path", "foot", (marks + k,), _FOOT))
         shapes.append(_Shape("circle", f"pin {role}{fixed}", (marks + k,)))
-    names = ends + 2 * len(scene.marks)
+    outputs = ends + 2 * len(scene.marks)
+    for k in range(len(scene.outputs)):
+        shapes.append(_Shape("path", "diamond", (outputs + k,), _DIAMOND))
+    names = outputs + len(scene.outputs)
     for k, name in enumerate(scene.names):
         shapes.append(_Shape("text", "name", (names + k,), name.partition(".")[2] or name))
     return shapes
@@ -173,7 +180,7 @@ def _element(shape: _Shape, frame: Sequence[int]) -> str:
     if shape.kind == "circle":
         return f'{start} cx="{at[0][0]}" cy="{at[0][1]}" r="7"/>'
     if shape.kind == "path":
-        return f'{start} d="M0 0l-13 22h26z" transform="translate({at[0][0]},{at[0][1]})"/>'
+        return f'{start} d="{shape.text}" transform="translate({at[0][0]},{at[0][1]})"/>'
     if shape.kind == "text":
         return f'{start} x="{at[0][0]}" y="{at[0][1]}" dx="12" dy="-10">{escape(shape.text)}</text>'
     return f'{start} points="{" ".join(f"{x},{y}" for x, y in at)}"/>'

@@ -60,18 +60,22 @@ figcaption, .note { color: var(--faint); font-size: .92rem; }
 .class { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(22rem, 100%), 1fr)); gap: 0 2rem; }
 .class > * { min-width: 0; } .figures { display: flex; flex-wrap: wrap; gap: 1rem; }
 .figures > figure { flex: 1 1 24rem; min-width: 0; }
-.broad svg { min-width: 44rem; }
+.broad svg { max-width: none; }
 math { font-size: 1.05em; } .formula { overflow-x: auto; padding: .2rem 0; }
 mtr.labels { color: var(--faint); font-size: .8em; }
 .motion svg { display: block; width: 100%; max-width: 40rem; } .motion input { width: min(30rem, 90%); }
 .motion select { max-width: 100%; font: inherit; } .motion output { font-variant-numeric: tabular-nums; }
 .motion .link { fill: var(--link); stroke: var(--ink); stroke-width: 3; fill-opacity: .8; }
-.motion .platform { fill: var(--platform); stroke: var(--output); stroke-width: 4; fill-opacity: .8; }
+.motion .platform { fill: var(--platform); stroke: var(--ink); stroke-width: 3; fill-opacity: .8; }
+.motion .edge { stroke: var(--ink); stroke-width: 10; }
+.motion .bar { stroke: var(--link); stroke-width: 6; } .motion .platform.bar { stroke: var(--platform); }
 .motion .ground { fill: var(--pale); stroke: var(--pale); fill-opacity: .2; }
+.motion .ground.edge, .motion .ground.bar { stroke: var(--pale); stroke-width: 2; }
 .motion polyline { stroke-linecap: round; } .motion .slider { stroke: var(--ink); stroke-width: 18;
   stroke-opacity: .45; stroke-linecap: butt; } .motion .axis { stroke: var(--ink); stroke-width: 2; }
 .motion .pin { fill: var(--paper); stroke: var(--ink); stroke-width: 3; }
-.motion .foot { fill: var(--pale); stroke: var(--ink); stroke-width: 2; }
+.motion .foot { fill: var(--paper); stroke: var(--ink); stroke-width: 2; }
+.motion .diamond { fill: var(--output); stroke: var(--ink); stroke-width: 1.5; }
 .motion .pin.input, .motion .axis.input, .motion .slider.input { stroke: var(--input); }
 .motion .pin.output, .motion .slider.output { stroke: var(--output); }
 .motion .name { fill: var(--ink); font: 20px system-ui, sans-serif; }

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from singsym.elimination.conditions import polynomial_latex, symbol_latex
-from singsym.output.pieces import grouped, known_by, moving
+from singsym.output.pieces import filled, grouped, known_by, loop_equations, moving, varying
 
 if TYPE_CHECKING:
     from singsym.classes.result import Classification, ClassResult, Configuration, Locus
@@ -30,7 +30,7 @@ _PREAMBLE = r"""\documentclass[a4paper,10pt]{article}
 \usepackage[utf8]{inputenc}
 \usepackage{lmodern}
 \usepackage[margin=22mm]{geometry}
-\usepackage{amsmath,amssymb,array,booktabs,longtable,graphicx}
+\usepackage{amsmath,amssymb,array,booktabs,graphicx}
 \newsavebox{\fitbox}
 \newcommand{\fitted}[1]{\par\medskip\noindent\sbox{\fitbox}{#1}%
   \ifdim\wd\fitbox>\linewidth\resizebox{\linewidth}{!}{\usebox{\fitbox}}\else\hfil\usebox{\fitbox}\fi\par\medskip}
@@ -38,7 +38,9 @@ _PREAMBLE = r"""\documentclass[a4paper,10pt]{article}
 \lineskiplimit=1pt \lineskip=2pt
 \setlength{\parindent}{0pt} \setlength{\parskip}{3pt plus 1pt}
 \raggedright
-\makeatletter\def\@listi{\leftmargin\leftmargini \topsep2pt \parsep0pt \itemsep1pt}\makeatother
+\makeatletter\def\@listI{\leftmargin\leftmargini \topsep2pt \parsep0pt \itemsep3pt}
+\let\@listi\@listI \@beginparpenalty=10000 \makeatother
+\setlength{\tabcolsep}{5pt}
 """
 
 _SPECIAL = str.maketrans(
@@ -104,8 +106,8 @@ def _loops(equation: VelocityEquation) -> list[str]:
     space = equation.space
     names = ", ".join(f"${polynomial_latex(space.ring.gen(v))}$" for v in space.variables)
     lines = [r"\section*{Configuration space}", f"Variables: {names}."]
-    if space.equations:
-        equations = ",\n".join(f"${polynomial_latex(e)} = 0$" for e in space.equations)
+    if loops := loop_equations(equation):
+        equations = ",\n".join(f"${polynomial_latex(e)} = 0$" for e in loops)
         lines.append(f"Loop equations: {equations}.")
     feasible = [f"${polynomial_latex(p)} > 0$" for p in space.positive]
     feasible += [f"${polynomial_latex(p)} \\ge 0$" for p in space.nonnegative]
@@ -272,13 +274,24 @@ def _count(number: int | None) -> str:
 
 
 def _loci(loci: Sequence[Locus]) -> str:
-    rows = " \\\\\n".join(
-        f"({x.condition}) & {_locus_name(x)} & {_count(x.dimension)} & {_count(x.components)}" for x in loci
-    )
+    headers = ("", "locus", "dimension", "points", "components")
+    rows = [
+        (f"({x.condition})", _locus_name(x), _count(x.dimension), _count(x.points), _count(x.components))
+        for x in loci
+    ]
+    wide = r">{\raggedright\arraybackslash}p{.55\linewidth}"
+    return _table(("l", wide, "c", "c", "c"), headers, rows)
+
+
+def _table(layout: Sequence[str], headers: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """A table by booktabs without its empty columns."""
+    kept = filled(headers, rows)
+    columns = "".join(layout[j] for j in kept)
+    head, *lines = (" & ".join(row[j] for j in kept) for row in (headers, *rows))
+    body = " \\\\\n".join(lines)
     return (
-        "\\begin{longtable}{@{}l>{\\raggedright\\arraybackslash}p{.6\\linewidth}cc@{}}\n\\toprule\n"
-        " & locus & dimension & components \\\\\n\\midrule\n\\endhead\n"
-        f"{rows} \\\\\n\\bottomrule\n\\end{{longtable}}"
+        f"\\begin{{center}}\\begin{{tabular}}{{@{{}}{columns}@{{}}}}\n\\toprule\n"
+        f"{head} \\\\\n\\midrule\n{body} \\\\\n\\bottomrule\n\\end{{tabular}}\\end{{center}}"
     )
 
 
@@ -288,22 +301,26 @@ def _locus_name(locus: Locus) -> str:
 
 
 def _class_table(result: Classification) -> str:
-    rows = " \\\\\n".join(
-        f"{c.singularity_class.number} & {c.types} & {c.verdict.answer} & "
-        f"{known_by(result, c.singularity_class.number)} & {_count(c.dimension)} & "
-        f"{_count(c.points)} & {_count(c.components)} & {', '.join(c.steps)}"
+    headers = ("class", "types", "there?", "known by", "dimension", "points", "components", "step")
+    rows = [
+        (
+            str(c.singularity_class.number),
+            str(c.types),
+            str(c.verdict.answer),
+            known_by(result, c.singularity_class.number),
+            _count(c.dimension),
+            _count(c.points),
+            _count(c.components),
+            ", ".join(c.steps),
+        )
         for c in result.classes
-    )
-    return (
-        "\\begin{center}\\begin{tabular}{@{}rlllcccl@{}}\n\\toprule\n"
-        " & types & there? & known by & dimension & points & components & step \\\\\n\\midrule\n"
-        f"{rows} \\\\\n\\bottomrule\n\\end{{tabular}}\\end{{center}}"
-    )
+    ]
+    return _table(("r", "l", "l", "l", "c", "c", "c", "l"), headers, rows)
 
 
 def _class(result: ClassResult, whole: Classification) -> str:
     """A class that occurs: equations of its pieces, and one configuration."""
-    head = f"\\subsection*{{{result.singularity_class.number}\\quad ({result.types})}}"
+    head = f"\\subsection*{{Class {result.singularity_class.number}\\quad ({result.types})}}"
     items = []
     for group in grouped(result.pieces, whole.loci):
         said = [
@@ -326,11 +343,17 @@ def _configuration(found: Configuration, equation: VelocityEquation) -> str:
     """Moving points with their coordinates, else the variables."""
     places: dict[str, list[str]] = {}
     for name, value in moving(found.points, equation).items():
-        places.setdefault(name.rpartition(".")[0], []).append(f"{float(value):.6f}")
+        places.setdefault(name.rpartition(".")[0], []).append(_number(value))
     if places:
         return ", ".join(f"${_point(name)} = ({', '.join(place)})$" for name, place in places.items())
-    values = found.coordinates.items()
-    return ", ".join(f"${symbol_latex(name)} = {float(value):.6f}$" for name, value in values)
+    values = varying(found.coordinates, equation).items()
+    return ", ".join(f"${symbol_latex(name)} = {_number(value)}$" for name, value in values)
+
+
+def _number(value: str | float) -> str:
+    """Six decimals; what is zero but for rounding is 0."""
+    number = float(value)
+    return "0" if abs(number) < 1e-14 else f"{number:.6f}".rstrip("0").rstrip(".")
 
 
 def _point(name: str) -> str:

@@ -5,7 +5,7 @@ Source: Table 2 of Zlatanov, Fenton, Benhabib (1998) lists a class by its condit
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -37,6 +37,27 @@ def grouped(pieces: Iterable[Piece], loci: Iterable[Locus]) -> tuple[Group, ...]
         points = sum(counts) if len(counts) == len(own) else None
         groups.append(Group(path, tuple(words.get(p, "") for p in path), dimension, points))
     return tuple(groups)
+
+
+def loop_equations(equation: VelocityEquation) -> Equations:
+    """The equations of the configuration space, without those that only define its constants."""
+    constants = {c.name for c in equation.space.ring.constants}
+    return tuple(e for e in equation.space.equations if not constants.issuperset(e.variables))
+
+
+def varying(coordinates: Mapping[str, str], equation: VelocityEquation) -> dict[str, str]:
+    """Coordinates by name without the constants of their ring."""
+    constants = {c.name for c in equation.space.ring.constants}
+    return {name: value for name, value in coordinates.items() if name not in constants}
+
+
+def filled(headers: Sequence[str], rows: Sequence[Sequence[str]]) -> list[int]:
+    """The numbers of the columns that are not empty in all rows.
+
+    >>> filled(("a", "b", "c"), (("1", "", ""), ("2", "", "3")))
+    [0, 2]
+    """
+    return [j for j in range(len(headers)) if not rows or any(row[j] for row in rows)]
 
 
 def moving(points: Mapping[str, str], equation: VelocityEquation) -> dict[str, str]:

@@ -6,19 +6,21 @@ Source: Figs 1-12 of Zlatanov, Fenton, Benhabib (1998).
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING
+from textwrap import wrap
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from singsym.classes.types import Defects, SingularityType
 from singsym.kinematics.velocity import VelocityEquation
-from singsym.mechanism.model import Mechanism, Space
+from singsym.mechanism.model import JointRate, Mechanism, Space
 from singsym.output.plot_style import Picture
 
 if TYPE_CHECKING:
     from singsym.classes.motions import Motion
     from singsym.classes.result import Classification, ClassResult
-    from singsym.output.plot_scene import Floats, Scene, Stage
+    from singsym.output.plot_scene import Scene, Stage
+    from singsym.output.plot_style import Floats, Velocities
 
 
 def plot_mechanism(
@@ -96,41 +98,69 @@ def _stage(classification: Classification) -> Stage:
 
 
 def _drawn(stage: Stage, point: Floats, motions: Sequence[Motion], title: str, description: str) -> Picture:
-    from singsym.output.plot_motion import WORDS
-    from singsym.output.plot_style import INK, MOTION, canvas
+    from singsym.output.plot_style import INK, canvas
 
-    planar = stage.mechanism.space is Space.PLANAR
     scene = stage.scene(point)
-    figure = canvas(5.4, _height(scene) if planar else 4.8)
-    axes = figure.add_subplot(projection=None if planar else "3d")
-    moving = [(m, stage.velocities(point, m.rates)) for m in motions]
-    if planar:
-        from singsym.output.plot_planar import draw_planar
-
-        draw_planar(axes, scene, moving)
+    moving: list[tuple[Motion, Velocities]] = [(m, stage.velocities(point, m.rates)) for m in motions]
+    if scene.space is Space.PLANAR:
+        from singsym.output.plot_planar import draw_planar as draw
     else:
-        from singsym.output.plot_spatial import draw_spatial
+        from singsym.output.plot_spatial import draw_spatial as draw
+        from singsym.output.plot_view import seen, velocities_seen, viewpoint
 
-        draw_spatial(axes, scene, moving)
-    figure.suptitle(title, fontsize=12, color=INK)
-    line = 0.22 / figure.get_figheight()
-    figure.get_layout_engine().set(rect=(0, line * len(motions), 1, 1 - line * len(motions)))
-    for row, motion in enumerate(motions):
-        colour, place = MOTION[str(motion.type)], (0.02, line * (row + 0.3))
-        figure.text(*place, f"→ {WORDS[motion.type]}", fontsize=8.5, color=colour)
+        view = viewpoint(scene)
+        scene = seen(scene, view)
+        moving = [(m, velocities_seen(v, view)) for m, v in moving]
+    figure = canvas(5.4, _height(scene))
+    draw(figure.add_subplot(), scene, moving)
+    figure.suptitle(_wrapped(title), fontsize=12, color=INK)
+    _write_below(figure, stage.mechanism, motions)
     return Picture(figure, title, description)
 
 
+def _write_below(figure: Any, mechanism: Mechanism, motions: Sequence[Motion]) -> None:
+    """What the arrows are, and the inputs and the output in the colours that they are drawn in."""
+    from singsym.output.plot_motion import WORDS
+    from singsym.output.plot_style import INPUT, MOTION, OUTPUT
+
+    line = 0.22 / figure.get_figheight()
+    rows = len(motions) + 1
+    figure.get_layout_engine().set(rect=(0, line * rows, 1, 1 - line * rows))
+    for row, motion in enumerate(reversed(motions), 1):
+        words = f"→ {WORDS[motion.type]}"
+        figure.text(0.02, line * (row + 0.3), words, fontsize=9, color=MOTION[str(motion.type)])
+    inputs, outputs = _inputs(mechanism), _outputs(mechanism)
+    figure.text(0.02, 0.3 * line, inputs, fontsize=9, color=INPUT)
+    figure.text(0.98, 0.3 * line, outputs, fontsize=9, color=OUTPUT, ha="right")
+
+
+def _inputs(mechanism: Mechanism) -> str:
+    one = len(mechanism.inputs) == 1
+    return f"input{'' if one else 's'} {', '.join(mechanism.inputs)}"
+
+
+def _outputs(mechanism: Mechanism) -> str:
+    named = [o.column if isinstance(o, JointRate) else o.point for o in mechanism.outputs]
+    return f"output{'' if len(named) == 1 else 's'} {', '.join(named)}"
+
+
 def _height(scene: Scene) -> float:
-    """A height in inches that suits a planar scene on 5.4 inches of width, room for title and words kept."""
-    width, height = (float(x) for x in np.ptp(scene.all_points, axis=0))
+    """A height in inches that suits a scene on 5.4 inches of width, room for title and words kept."""
+    if scene.space is Space.SPHERICAL:
+        return 5.4
+    width, height = (float(x) for x in np.ptp(scene.all_points[:, :2], axis=0))
     margin = 0.4 * scene.size
     return min(5.4, 1.0 + 5.0 * (height + margin) / (width + margin))
 
 
+def _wrapped(title: str) -> str:
+    """A title in lines that fit the width of a figure."""
+    return "\n".join(wrap(title, 52))
+
+
 def _words(mechanism: Mechanism) -> str:
-    inputs = ", ".join(mechanism.inputs)
-    return f"{len(mechanism.links)} links and {len(mechanism.joints)} joints, inputs {inputs}"
+    parts = f"{len(mechanism.links)} links and {len(mechanism.joints)} joints"
+    return f"{parts}, {_inputs(mechanism)}, {_outputs(mechanism)}"
 
 
 def _class_words(stage: Stage, title: str, motions: Sequence[Motion]) -> str:

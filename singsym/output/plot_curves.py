@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from singsym.classes.result import Classification, ClassResult, Locus
 from singsym.elimination.budget import Budget
@@ -19,11 +18,10 @@ from singsym.kinematics.placement import JointValue
 from singsym.kinematics.sampling import NumericalSystem
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import JointRate
-from singsym.output.plot_style import DASHES, INK, PALE, SERIES, Picture, canvas
+from singsym.output.plot_style import DASHES, INK, PALE, SERIES, Floats, Picture, canvas
 from singsym.polynomials import Polynomial
 from singsym.varieties.real.curve import real_curve
 
-Floats = NDArray[np.float64]
 _SHAPES = "osD^vPX*<>"
 
 

@@ -7,14 +7,12 @@ the motions themselves are numerical, for drawing.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from singsym.classes.motions import Motion, null_motions
 from singsym.classes.types import Defects, SingularityType
 from singsym.kinematics.sampling import numerical_matrix
 from singsym.kinematics.velocity import VelocityEquation
-
-Floats = NDArray[np.float64]
+from singsym.output.plot_style import Floats
 
 WORDS = {
     SingularityType.RI: "redundant input: inputs move, the output stands still",
@@ -47,7 +45,7 @@ def drawn_motions(motions: tuple[Motion, ...]) -> tuple[Motion, ...]:
 
 def rates_text(motion: Motion) -> str:
     """The velocities of a motion, in proportion."""
-    return ", ".join(f"{label} {value:.3g}" for label, value in motion.rates.items())
+    return ", ".join(f"{label} {value:.3g}" for label, value in motion.rates.items()).replace("-", "−")
 
 
 def restriction_text(motion: Motion) -> str:

@@ -5,23 +5,30 @@ Source: the drawing manner of Figs 1-4 of Zlatanov, Fenton, Benhabib (1998).
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from singsym.classes.motions import Motion
 from singsym.mechanism.model import JointKind
-from singsym.output.plot_scene import Body, Floats, Mark, Scene, distinct
-from singsym.output.plot_style import INK, INPUT, LINK, MOTION, OUTPUT, PALE, PAPER, PLATFORM
+from singsym.output.plot_labels import Segment, draw_arrows, name_groups, set_margins, write_names
+from singsym.output.plot_scene import Body, Mark, Scene, distinct
+from singsym.output.plot_style import (
+    INK,
+    INPUT,
+    LINK,
+    OUTPUT,
+    PALE,
+    PAPER,
+    PLATFORM,
+    Floats,
+    Velocities,
+)
 
-Velocities = Mapping[tuple[str, str], Floats]
 
-
-def draw_planar(
-    axes: Any, scene: Scene, motions: Sequence[tuple[Motion, Velocities]] = (), names: bool = True
-) -> None:
-    """Draw a scene, with a null motion's velocities as arrows, onto matplotlib axes."""
+def draw_planar(axes: Any, scene: Scene, motions: Sequence[tuple[Motion, Velocities]] = ()) -> None:
+    """Draw a scene, with null motions' velocities as arrows, onto matplotlib axes."""
     size = scene.size
     axes.set_aspect("equal")
     axes.axis("off")
@@ -37,20 +44,19 @@ def draw_planar(
             _slider(axes, mark, size)
     grounded = [m for m in scene.marks if m.grounded and m.joint.kind is not JointKind.P]
     for place in distinct(m.base for m in grounded) if grounded else ():
-        _ground(axes, place, size)
+        draw_foot(axes, place, size)
     for mark in scene.marks:
         if mark.joint.kind is not JointKind.P:
             axes.plot(*mark.place, "o", ms=6.5, mfc=PAPER, mec=INK, mew=1.3, zorder=6)
     _roles(axes, scene, size)
     reached = [scene.all_points]
-    arrows: list[tuple[Floats, Floats]] = []
+    arrows: list[Segment] = []
     for motion, velocities in motions:
-        shown = _arrows(axes, scene, motion, velocities)
+        shown = draw_arrows(axes, scene, motion, velocities, size)
         arrows += shown
         reached += [tip.reshape(1, 2) for _, tip in shown]
-    if names:
-        _names(axes, scene, arrows)
-    _margins(axes, np.concatenate(reached), 0.17 * size)
+    _names(axes, scene, arrows)
+    set_margins(axes, np.concatenate(reached), 0.17 * size)
 
 
 def _length(body: Body) -> float:
@@ -90,7 +96,7 @@ def _bar(axes: Any, body: Body, width: float) -> None:
     axes.plot(*ends.T, "-", color=fill, lw=width - 2, solid_capstyle="round", zorder=order + 0.01)
 
 
-def _ground(axes: Any, place: Floats, size: float) -> None:
+def draw_foot(axes: Any, place: Floats, size: float) -> None:
     """A triangle on a hatched line below a pin."""
     h = 0.055 * size
     x, y = place
@@ -173,23 +179,17 @@ def _roles(axes: Any, scene: Scene, size: float) -> None:
         axes.plot(*place, "D", ms=6, mfc=OUTPUT, mec=INK, mew=1, zorder=7)
 
 
-def _names(axes: Any, scene: Scene, arrows: Sequence[tuple[Floats, Floats]]) -> None:
+def _names(axes: Any, scene: Scene, arrows: Sequence[Segment]) -> None:
     """The names of points, those of one place together, away from the links and arrows that meet there."""
     size = scene.size
-    groups: list[tuple[Floats, list[str]]] = []
-    for name, place in scene.names.items():
-        known = next((g for p, g in groups if float(np.abs(p - place).max()) < 0.02 * size), None)
-        if known is None:
-            groups.append((place, [name]))
-        else:
-            known.append(name)
-    for place, group in groups:
-        turned = any(_is_turned(m) and float(np.abs(m.place - place).max()) < 1e-6 for m in scene.marks)
-        reach = (0.115 if turned else 0.075) * size
-        away = _free_direction(scene, place, reach, arrows)
-        label = ", ".join(sorted(n.partition(".")[2] or n for n in group))
-        spot = place + reach * away
-        axes.annotate(label, spot, ha="center", va="center", fontsize=11, color=INK, zorder=9)
+
+    def reach(place: Floats) -> float:
+        here = [m for m in scene.marks if float(np.abs(m.place - place).max()) < 1e-6]
+        wide = any(_is_turned(m) or (m.grounded and m.joint.kind is JointKind.P) for m in here)
+        return (0.115 if wide else 0.075) * size
+
+    groups = name_groups(scene.names, 0.02 * size)
+    write_names(axes, groups, [*arrows, *_segments(scene)], reach, 0.02 * size)
 
 
 def _is_turned(mark: Mark) -> bool:
@@ -197,66 +197,19 @@ def _is_turned(mark: Mark) -> bool:
     return (mark.active or mark.output) and mark.joint.kind is not JointKind.P
 
 
-def _free_direction(
-    scene: Scene, place: Floats, reach: float, arrows: Sequence[tuple[Floats, Floats]]
-) -> Floats:
-    """The direction in which a label is farthest from links, grounds, sliders and arrows."""
-    segments = list(arrows)
+def _segments(scene: Scene) -> list[Segment]:
+    """Lines along links, grounds and sliders, where names do not go."""
+    segments: list[Segment] = []
     for body in scene.bodies:
         if not body.ground:
             corners = outline(body.places) if len(body.places) > 2 else body.places
             segments += list(zip(corners, np.roll(corners, -1, axis=0), strict=True))
     for mark in scene.marks:
         if mark.joint.kind is JointKind.P and mark.direction is not None:
-            side = np.array([-mark.direction[1], mark.direction[0]]) * 0.08 * scene.size
-            for shift in (0 * side, side):
-                middle, u = mark.place + shift, reach * mark.direction
+            side = np.array([-mark.direction[1], mark.direction[0]]) * 0.06 * scene.size
+            for shift in (-side, 0 * side, side):
+                middle, u = mark.place + shift, 0.1 * scene.size * mark.direction
                 segments.append((middle - u, middle + u))
         elif mark.grounded:
             segments.append((mark.base, mark.base - np.array([0.0, 0.09 * scene.size])))
-    best, found = -1.0, np.array([0.0, 1.0])
-    for a in np.linspace(0, 2 * np.pi, 16, endpoint=False) + np.pi / 4:
-        u = np.array([np.cos(a), np.sin(a)])
-        clearance = min((_distance(place + reach * u, *s) for s in segments), default=1.0)
-        if clearance > best + 1e-6:
-            best, found = clearance, u
-    return found
-
-
-def _distance(p: Floats, a: Floats, b: Floats) -> float:
-    """From a point to a segment."""
-    d = b - a
-    square = float(d @ d)
-    t = 0.0 if square < 1e-18 else min(1.0, max(0.0, float((p - a) @ d) / square))
-    return float(np.linalg.norm(p - a - t * d))
-
-
-def _arrows(axes: Any, scene: Scene, motion: Motion, velocities: Velocities) -> list[tuple[Floats, Floats]]:
-    """Velocities of the points as arrows, the longest about a quarter of the figure; their ends."""
-    shown: list[tuple[Floats, Floats]] = []
-    for body in scene.bodies:
-        for name, place in body.points.items():
-            v = velocities[body.name, name]
-            if all(np.abs(place - p).max() + np.abs(v - w).max() > 1e-7 for p, w in shown):
-                shown.append((place, v))
-    fastest = max((float(np.linalg.norm(v)) for _, v in shown), default=0.0)
-    drawn: list[tuple[Floats, Floats]] = []
-    for place, v in shown if fastest > 1e-9 else ():
-        if float(np.linalg.norm(v)) > 1e-3 * fastest:
-            tip = place + v * (0.25 * scene.size / fastest)
-            style = {
-                "arrowstyle": "-|>,head_width=0.28,head_length=0.55",
-                "color": MOTION[str(motion.type)],
-                "lw": 2.2,
-                "shrinkA": 0,
-                "shrinkB": 0,
-            }
-            axes.annotate("", tip, place, arrowprops=style, zorder=10, annotation_clip=False)
-            drawn.append((place, tip))
-    return drawn
-
-
-def _margins(axes: Any, points: Floats, margin: float) -> None:
-    low, high = points.min(axis=0), points.max(axis=0)
-    axes.set_xlim(low[0] - margin, high[0] + margin)
-    axes.set_ylim(low[1] - margin, high[1] + margin)
+    return segments

@@ -6,12 +6,11 @@ Numbers here are for drawing; nothing is concluded from them.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from singsym.kinematics.formulations import place
 from singsym.kinematics.loops import path
@@ -19,9 +18,11 @@ from singsym.kinematics.placement import Placement
 from singsym.kinematics.sampling import NumericalSystem, sample_configurations
 from singsym.kinematics.velocity import VelocityEquation, velocity_equation
 from singsym.mechanism.model import Joint, JointKind, JointRate, Mechanism, Space
+from singsym.output.plot_style import Floats
 from singsym.polynomials import Polynomial
 
-Floats = NDArray[np.float64]
+SAMPLES = 24
+"""Of so many random configurations the one with the most open shape is drawn."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +44,7 @@ class Body:
 
 @dataclass(frozen=True, eq=False)
 class Mark:
-    """A joint: its place, the direction of its axis or slide (None for pins of the plane), its role.
+    """A joint: its place, the directions of its axes or slide (none for pins of the plane), its role.
 
     base: the point of the first link; they differ where something slides.
     """
@@ -51,10 +52,20 @@ class Mark:
     joint: Joint
     place: Floats
     base: Floats
-    direction: Floats | None
+    axes: tuple[Floats, ...]
     active: bool
     output: bool
     grounded: bool
+
+    @property
+    def links(self) -> tuple[str, str]:
+        """The links that it joins."""
+        return self.joint.first, self.joint.second
+
+    @property
+    def direction(self) -> Floats | None:
+        """The first of its axes."""
+        return self.axes[0] if self.axes else None
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,6 +90,32 @@ class Scene:
         """The largest extent, 1 for a single point."""
         extent = float(np.ptp(self.all_points, axis=0).max())
         return extent if extent > 1e-9 else 1.0
+
+    def mapped(self, linear: Callable[[Floats], Floats]) -> Scene:
+        """The scene with a linear map applied to every place and direction."""
+
+        def all_of(places: Mapping[str, Floats]) -> dict[str, Floats]:
+            return {name: linear(place) for name, place in places.items()}
+
+        return replace(
+            self,
+            bodies=tuple(replace(body, points=all_of(body.points)) for body in self.bodies),
+            marks=tuple(
+                replace(m, place=linear(m.place), base=linear(m.base), axes=tuple(map(linear, m.axes)))
+                for m in self.marks
+            ),
+            names=all_of(self.names),
+            outputs=tuple(map(linear, self.outputs)),
+        )
+
+
+def openness(points: Floats) -> float:
+    """How far points lie from one another, for their extent: the mean logarithm of their distances."""
+    extent = float(np.ptp(points, axis=0).max())
+    if extent < 1e-9:
+        return -np.inf
+    apart = np.linalg.norm(points[:, None] - points[None], axis=2)[np.triu_indices(len(points), 1)]
+    return float(np.log(np.maximum(apart / extent, 0.02)).mean())
 
 
 def distinct(places: object, tolerance: float = 1e-7) -> Floats:
@@ -145,11 +182,11 @@ class Stage:
         return NumericalSystem(entries, len(self.placement.space.ring.names))
 
     def sample(self, seed: int = 0) -> Floats:
-        """Some configuration, found numerically; raises `ValueError` where none was found."""
-        found = sample_configurations(self.placement.space, 1, seed=seed)
+        """Some open configuration, found numerically; raises `ValueError` where none was found."""
+        found = sample_configurations(self.placement.space, SAMPLES, seed=seed)
         if not found:
             raise ValueError(f"{self.mechanism.name}: no configuration was found to draw it in; give one")
-        return found[0]
+        return max(found, key=lambda point: openness(self.scene(point).all_points))
 
     def vector(self, coordinates: Mapping[str, str | float]) -> Floats:
         """Named coordinates in the order of the ring; raises `ValueError` naming those that are missing."""
@@ -226,23 +263,31 @@ class Stage:
         if not ends:
             return None
         rates = {o.column for o in self.mechanism.outputs if isinstance(o, JointRate)}
-        direction = None
-        if joint.kind is not JointKind.S and not (dimension == 2 and joint.kind is JointKind.R):
-            screw = screws[joint.columns[0]]
-            turn, shift = screw[: 1 if dimension == 2 else 3], screw[-dimension:]
-            along = shift if joint.kind is JointKind.P else turn
-            length = float(np.linalg.norm(along))
-            direction = along / length if len(along) == dimension and length > 1e-9 else None
         ground = self.mechanism.ground
         return Mark(
             joint,
             ends[0],
             ends[-1],
-            direction,
+            self._axes(joint, screws),
             any(c in self.mechanism.inputs for c in joint.columns),
             any(c in rates for c in joint.columns),
             ground in (joint.first, joint.second),
         )
+
+    def _axes(self, joint: Joint, screws: Mapping[str, Floats]) -> tuple[Floats, ...]:
+        """Unit vectors along its axes, or along its slide."""
+        planar = self.mechanism.space is Space.PLANAR
+        if joint.kind is JointKind.S or (planar and joint.kind is JointKind.R):
+            return ()
+        chosen = {JointKind.U: slice(2), JointKind.E: slice(2, 3)}.get(joint.kind, slice(1))
+        found = []
+        for column in joint.columns[chosen]:
+            screw = screws[column]
+            along = (screw[1:] if planar else screw[-3:]) if joint.kind is JointKind.P else screw[:3]
+            length = float(np.linalg.norm(along))
+            if length > 1e-9:
+                found.append(along / length)
+        return tuple(found)
 
     # -- velocities --------------------------------------------------------------------------------
 

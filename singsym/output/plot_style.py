@@ -6,9 +6,17 @@ Source: singsym's own.
 from __future__ import annotations
 
 import io
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Velocities = Mapping[tuple[str, str], Floats]
+"""Velocities of points by link and point."""
 
 INK = "#1f2329"
 PALE = "#8b949f"

@@ -8,12 +8,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from html import escape
 
+from singsym.classes.motions import Motion
 from singsym.classes.result import Classification, ClassResult, Piece
 from singsym.classes.types import SingularityType
 from singsym.mechanism.model import JointRate
 from singsym.output import html_math as math
 from singsym.output import html_page as html
-from singsym.polynomials import PolynomialMatrix
+from singsym.output.pieces import known_by, loop_equations, moving, varying
+from singsym.output.text import number_text
+from singsym.polynomials import Polynomial, PolynomialMatrix
 
 LARGEST_MATRIX = 400
 """Matrices with more entries are left out of the page."""
@@ -145,9 +148,10 @@ def _class_table(classification: Classification) -> str:
             dimension,
             count,
             escape(", ".join(result.steps)),
+            known_by(classification, number),
         )
         rows.append((style, cells))
-    headers = ("class", "types", "there?", "dimension", "parts", "step of §3.2")
+    headers = ("class", "types", "there?", "dimension", "parts", "step of §3.2", "known by")
     return html.table(headers, rows, "The 21 classes")
 
 
@@ -168,7 +172,7 @@ def _class(classification: Classification, result: ClassResult) -> str:
     drawn = ""
     if classification.mechanism is not None and result.witnesses:
         picture = plot_class(classification, result)
-        drawn = html.figure(picture, f"figure-{number}", picture.description)
+        drawn = html.figure(picture, f"figure-{number}", _velocities(classification, result))
     size = [f"dimension {_known(result.dimension)}"]
     size += [text for text in (_count(result.points, "point"),) if text]
     if not result.points and result.components:
@@ -177,25 +181,58 @@ def _class(classification: Classification, result: ClassResult) -> str:
         f"δ = {d.delta}, p = {d.p}, k<sub>I</sub> = {d.k_I}, k<sub>O</sub> = {d.k_O}"
         for d in (p.defects for p in result.pieces)
     )
-    pieces = "".join(f"<li>{_piece(classification, piece)}</li>" for piece in _distinct(result))
     return (
         f'<section id="class-{number}"><h3>Class {number}: {escape(result.singularity_class.name)}</h3>'
         f'<div class="class"><div><p>{escape(result.singularity_class.words.capitalize())}. '
         f"{escape(', '.join(size).capitalize())}.</p><p>Rank defects: {'; '.join(defects)}.</p>"
-        f"<ul>{pieces}</ul>{_impossible(classification, result)}"
+        f"<ul>{_pieces(classification, result)}</ul>{_impossible(classification, result)}"
         f'<p><a href="#proof-{number}">How this is known</a></p></div>{drawn}</div>'
-        f"{_witnesses(result)}</section>"
+        f"{_witnesses(classification, result)}</section>"
     )
 
 
-def _distinct(result: ClassResult) -> list[Piece]:
-    """One piece for each set of factors."""
-    return list({(p.path, p.exclusions): p for p in result.pieces}.values())
+def _velocities(classification: Classification, result: ClassResult) -> str:
+    """The velocities of the motions in the figure of a class."""
+    from singsym.output.plot_motion import drawn_motions, rates_text
+
+    motions = drawn_motions(_motions(classification, result))
+    return "; ".join(f"{m.type}: {rates_text(m)}" for m in motions)
 
 
-def _piece(classification: Classification, piece: Piece) -> str:
-    """What vanishes on a piece, linked to the loci, and what does not."""
-    place = {locus.factor: i for i, locus in reversed(list(enumerate(classification.loci)))}
+def _motions(classification: Classification, result: ClassResult) -> tuple[Motion, ...]:
+    """All null motions and restrictions at the configuration that is drawn."""
+    import numpy as np
+
+    from singsym.output.plot_motion import motions_at
+
+    found = next(((w, p) for p in result.pieces for w in p.witnesses), None)
+    if found is None:
+        return ()
+    equation, coordinates = classification.equation, found[0].coordinates
+    point = np.array([float(coordinates[name]) for name in equation.space.ring.names])
+    return motions_at(equation, point, found[1].defects)
+
+
+def _pieces(classification: Classification, result: ClassResult) -> str:
+    """What vanishes on the pieces of a class as a list, each time with what does not."""
+    unequal: dict[str, dict[str, None]] = {}
+    for piece in result.pieces:
+        unequal.setdefault(_vanishing(classification, piece), {})[_unequal(classification, piece)] = None
+    lines = [
+        text + "".join(f'<br><span class="note">where {note}</span>' for note in notes if note)
+        for text, notes in unequal.items()
+    ]
+    return "".join(f"<li>{line}</li>" for line in lines)
+
+
+def _place(classification: Classification) -> dict[Polynomial, int]:
+    """The number of the first locus of each factor."""
+    return {locus.factor: i for i, locus in reversed(list(enumerate(classification.loci)))}
+
+
+def _vanishing(classification: Classification, piece: Piece) -> str:
+    """The factors that are zero on a piece, linked to their loci."""
+    place = _place(classification)
     lines = []
     for p in piece.path:
         if p in place:
@@ -205,51 +242,44 @@ def _piece(classification: Classification, piece: Piece) -> str:
             lines.append(f'<a href="#locus-{i}">{shown}</a>')
         else:
             lines.append(math.formula(math.equation(p, longest=12)))
+    return " and ".join(lines) or "everywhere"
+
+
+def _unequal(classification: Classification, piece: Piece) -> str:
+    """What is not zero on a piece: single factors, and the number of groups that are not all zero."""
+    place = _place(classification)
     factors = [f for e in piece.exclusions if len(e) == 1 for f, _ in e[0].factors()]
-    unequal = []
+    said = []
     for f in dict.fromkeys(factors):
         words = classification.loci[place[f]].words if f in place else ""
-        unequal.append(f"not {escape(words)}" if words else math.formula(math.equation(f, "≠", 8)))
-    groups = [e for e in piece.exclusions if len(e) > 1]
-    said = [[classification.loci[place[f]].words if f in place else "" for f in group] for group in groups]
-    unequal += [f"not ({escape(' and '.join(words))})" for words in said if all(words)]
-    several = [words for words in said if not all(words)]
-    if several:
-        unequal.append(f"{len(several)} group{'s' if len(several) > 1 else ''} of minors not all zero")
-    text = " and ".join(lines) or "everywhere"
-    return text + (f'<br><span class="note">where {"; ".join(unequal)}</span>' if unequal else "")
+        said.append(f"not {escape(words)}" if words else math.formula(math.equation(f, "≠", 8)))
+    groups = sum(len(e) > 1 for e in piece.exclusions)
+    if groups:
+        said.append(f"{groups} group{'' if groups == 1 else 's'} of polynomials not all zero")
+    return "; ".join(said)
 
 
 def _impossible(classification: Classification, result: ClassResult) -> str:
     """Which input and output velocities are impossible at the configuration that is drawn."""
-    import numpy as np
+    from singsym.output.plot_motion import restriction_text
 
-    from singsym.output.plot_motion import motions_at, restriction_text
-
-    found = next(((w, p) for p in result.pieces for w in p.witnesses), None)
-    if found is None:
-        return ""
-    equation = classification.equation
-    coordinates = found[0].coordinates
-    point = np.array([float(coordinates[name]) for name in equation.space.ring.names])
     lines = [
         f"<li>{'input' if m.type is SingularityType.II else 'output'} velocities must obey "
         f"{escape(restriction_text(m))}</li>"
-        for m in motions_at(equation, point, found[1].defects)
+        for m in _motions(classification, result)
         if m.restriction
     ]
     return f"<p>At this configuration:</p><ul>{''.join(lines)}</ul>" if lines else ""
 
 
-def _witnesses(result: ClassResult) -> str:
+def _witnesses(classification: Classification, result: ClassResult) -> str:
     if not result.witnesses:
         return ""
     shown = result.witnesses[:WITNESSES]
-    labels = list(dict.fromkeys(label for w in shown for label in (w.points or w.coordinates)))
-    rows = [
-        ("", [f"{float((w.points or w.coordinates).get(label, 'nan')):.6g}" for label in labels])
-        for w in shown
-    ]
+    equation = classification.equation
+    places = [moving(w.points, equation) or varying(w.coordinates, equation) for w in shown]
+    labels = list(dict.fromkeys(label for place in places for label in place))
+    rows = [("", [number_text(place[label], 6) for label in labels]) for place in places]
     listed = html.table(
         [escape(x) for x in labels], rows, f"Configurations of class {result.singularity_class.number}"
     )
@@ -302,7 +332,7 @@ def _strata(classification: Classification) -> str:
 def _equations(classification: Classification) -> str:
     equation, reduction = classification.equation, classification.reduction
     space = equation.space
-    loops = "".join(_line(math.equation(e, longest=24)) for e in space.equations)
+    loops = "".join(_line(math.equation(e, longest=24)) for e in loop_equations(equation))
     parts = [f"<p>Configuration variables: {escape(', '.join(space.variables))}.</p>"]
     parts.append(f"<h3>Loop equations</h3>{loops}" if loops else "<p>No loop equations.</p>")
     columns = [c.label for c in equation.columns]

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from singsym.output.page import Block, Grid, Page
-from singsym.output.pieces import grouped, known_by, moving
+from singsym.output.pieces import filled, grouped, known_by, loop_equations, moving, varying
 
 if TYPE_CHECKING:
     from singsym.classes.at import Analysis
@@ -76,7 +76,7 @@ def mechanism_page(mechanism: Mechanism, equation: VelocityEquation) -> Page:
     ]
     joints = tuple(_joint_row(j, mechanism) for j in mechanism.joints)
     variables = f"Configuration variables ({space.formulation}): {', '.join(space.variables)}"
-    equations = [f"  {polynomial_text(e)} = 0" for e in space.equations]
+    equations = [f"  {polynomial_text(e)} = 0" for e in loop_equations(equation)]
     return (
         "\n".join(head),
         "\n".join(facts),
@@ -208,8 +208,8 @@ def classification_page(result: Classification) -> Page:
     if space:
         blocks.append(Grid(("dimension", "smooth", "remark"), space, "Configuration space"))
     if loci:
-        blocks.append(Grid(_LOCI, loci, "The singularity set: loci of conditions (4) and (5)"))
-    blocks.append(Grid(_CLASSES, rows, "The classes"))
+        blocks.append(_lean(_LOCI, loci, "The singularity set: loci of conditions (4) and (5)"))
+    blocks.append(_lean(_CLASSES, rows, "The classes"))
     for found in result.classes:
         if found.verdict.is_yes:
             blocks.append(_class_text(found, result))
@@ -222,6 +222,13 @@ def classification_page(result: Classification) -> Page:
 
 def _count(number: int | None) -> str:
     return "" if number is None else str(number)
+
+
+def _lean(headers: tuple[str, ...], rows: tuple[tuple[str, ...], ...], title: str) -> Grid:
+    """A grid without its empty columns."""
+    kept = filled(headers, rows)
+    lines = tuple(tuple(row[j] for j in kept) for row in rows)
+    return Grid(tuple(headers[j] for j in kept), lines, title)
 
 
 def _space_row(piece: SpacePiece) -> tuple[str, ...]:
@@ -266,7 +273,9 @@ def _class_text(result: ClassResult, whole: Classification) -> str:
 
 def configuration_text(found: Configuration, equation: VelocityEquation, digits: int = 7) -> str:
     """A certified configuration on one line: moving points, else the variables; joint values after them."""
-    named = points_text(moving(found.points, equation), digits) or values_text(found.coordinates, digits)
+    named = points_text(moving(found.points, equation), digits) or values_text(
+        varying(found.coordinates, equation), digits
+    )
     joints = values_text(found.joints, digits)
     return f"{named}; {joints}" if joints else named
 
@@ -279,16 +288,16 @@ def points_text(points: Mapping[str, str | float], digits: int = 7) -> str:
     """
     places: dict[str, list[str]] = {}
     for name, value in points.items():
-        places.setdefault(name.rpartition(".")[0], []).append(_number(value, digits))
+        places.setdefault(name.rpartition(".")[0], []).append(number_text(value, digits))
     return ", ".join(f"{name} = ({', '.join(place)})" for name, place in places.items())
 
 
 def values_text(values: Mapping[str, str | float], digits: int = 7) -> str:
     """Names with their values."""
-    return ", ".join(f"{name} = {_number(value, digits)}" for name, value in values.items())
+    return ", ".join(f"{name} = {number_text(value, digits)}" for name, value in values.items())
 
 
-def _number(value: str | float, digits: int) -> str:
+def number_text(value: str | float, digits: int) -> str:
     """A number for reading; what is zero but for rounding is 0."""
     number = float(value)
     return "0" if abs(number) < 1e-14 else f"{number:.{digits}g}"

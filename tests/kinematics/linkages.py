@@ -154,4 +154,23 @@ def parallel_slides() -> Mechanism:
     )
 
 
-EVERY = (trammel, inverted_slider, cross_slides, crane, puck, parallel_slides)
+def skew_yoke() -> Mechanism:
+    """A crank moves a yoke on a rail by a block in an inclined slot, which both name in their own frames."""
+    return planar(
+        [
+            link("ground", {"A": (0, 0), "O": (3, 1)}, {"y": (0, 1)}),
+            link("crank", {"A": (0, 0), "B": (1, 0)}),
+            link("block", {"B": (0, 0)}, {"u": ("3/5", "4/5")}),
+            link("yoke", {"Z": (0, 0), "W": (-1, 0)}, {"u": ("4/5", "-3/5"), "y": (0, 1)}),
+        ],
+        [
+            pin("A", "ground", "crank"),
+            pin("B", "crank", "block"),
+            slide("S", "block", "yoke", ("B", "Z")),
+            slide("Y", "ground", "yoke", ("O", "W"), "y"),
+        ],
+        ["A"],
+    )
+
+
+EVERY = (trammel, inverted_slider, cross_slides, crane, puck, parallel_slides, skew_yoke)

@@ -11,10 +11,18 @@ import sympy
 from singsym.elimination.ideal import Ideal
 from singsym.kinematics import check_mobility, place, velocity_equation
 from singsym.kinematics.reduction import reduce
-from singsym.mechanism import load
+from singsym.mechanism import MechanismError, load
 from singsym.mechanism.model import Exclusion, Limit, Mechanism
 from singsym.minors.determinant import determinant
-from tests.kinematics.linkages import EVERY, inverted_slider, planar, slide
+from tests.kinematics.linkages import (
+    EVERY,
+    inverted_slider,
+    link,
+    parallel_slides,
+    planar,
+    skew_yoke,
+    slide,
+)
 
 LIBRARY = ["zlatanov-2dof", "fourbar", "slider-crank", "five-bar", "3rpr", "3rrr", "pentagon", "2r"]
 
@@ -39,6 +47,22 @@ def test_ranks_agree_with_those_of_joint_angles(make: Callable[[], Mechanism]) -
     points, angles = (check_mobility(velocity_equation(mechanism, f), seed=3) for f in ("planar", "joint"))
     assert points.ranks == angles.ranks
     assert points.messages == angles.messages == ()
+
+
+def test_the_axis_of_a_slide_is_one_direction_in_both_links() -> None:
+    """The yoke stays upright, so that its slot through Z at (4, d_Y + 1) has the direction (4, -3)."""
+    space = place(skew_yoke()).space
+    (d,) = (space.ring.gen(name) for name in space.variables if name == "d_Y")
+    x, y = space.points["B"]
+    assert space.points["Z"] == (space.ring.constant(4), d + 1)
+    assert not 3 * (x - 4) + 4 * (y - d - 1)
+
+
+def test_slides_in_a_loop_that_cannot_be_parallel() -> None:
+    straight = parallel_slides()
+    turned = [link(k.name, k.points, {**k.axes, "w": ("4/5", "3/5")}) for k in straight.links[1:2]]
+    with pytest.raises(MechanismError, match=r"joints\.W\.axis: found slides in a loop"):
+        place(replace(straight, links=(straight.links[0], *turned, straight.links[2])))
 
 
 def test_the_loops_of_the_paper() -> None:

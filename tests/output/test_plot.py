@@ -8,13 +8,14 @@ import pytest
 from singsym.classes.classify import classify
 from singsym.classes.result import Classification
 from singsym.classes.types import SingularityType as T
-from singsym.kinematics.sampling import numerical_matrix
+from singsym.kinematics.sampling import numerical_matrix, sample_configurations
 from singsym.mechanism import load
 from singsym.mechanism.model import Space
 from singsym.output.plot import class_pictures, plot_class, plot_mechanism
 from singsym.output.plot_curves import Coordinate, plot_curves, trace_loci
 from singsym.output.plot_motion import drawn_motions, motions_at, restriction_text
-from singsym.output.plot_scene import Stage
+from singsym.output.plot_scene import Stage, openness
+from singsym.output.plot_view import seen, viewpoint
 from singsym.output.strata_graph import plot_strata, strata_graph
 
 
@@ -118,7 +119,28 @@ def test_mechanisms_of_every_space_can_be_drawn(name: str, tmp_path: object) -> 
     mechanism = load(name)
     picture = plot_mechanism(mechanism, seed=1)
     assert picture.save(f"{tmp_path}/figure.pdf").stat().st_size > 1000
-    assert ("3d" in str(type(picture.figure.axes[0])).lower()) == (mechanism.space is not Space.PLANAR)
+    written = {text.get_text() for text in [*picture.figure.texts, *picture.figure.axes[0].texts]}
+    named = {name for text in written for name in text.split(", ")}
+    assert any(text.startswith("input") and text.endswith(mechanism.inputs[-1]) for text in written)
+    joints = {joint.name for joint in mechanism.joints}
+    expected = (
+        joints if mechanism.space is Space.SPHERICAL else set(Stage.of(mechanism).placement.space.points)
+    )
+    assert {name.partition(".")[2] or name for name in expected} <= named
+
+
+@pytest.mark.parametrize("name", ["zlatanov-hybrid-3-2", "rssr", "stewart-gough"])
+def test_a_view_is_a_rotation_and_the_chosen_shape_is_open(name: str) -> None:
+    stage = Stage.of(load(name))
+    scene = stage.scene(stage.sample(seed=2))
+    view = viewpoint(scene)
+    assert np.allclose(view @ view.T, np.eye(3))
+    assert np.linalg.det(view) == pytest.approx(1)
+    drawn = seen(scene, view)
+    for body, turned in zip(scene.bodies, drawn.bodies, strict=True):
+        assert np.allclose(np.ptp(body.places @ view.T, axis=0), np.ptp(turned.places, axis=0))
+    others = sample_configurations(stage.placement.space, 5, seed=2)
+    assert openness(scene.all_points) >= max(openness(stage.scene(p).all_points) for p in others)
 
 
 def test_files_and_configurations_that_are_not_there_are_refused(linkage: Classification) -> None:

@@ -9,6 +9,7 @@ from singsym.kinematics.constraints import constrained
 from singsym.kinematics.formulations import joint, natural, planar, spherical
 from singsym.kinematics.placement import Placement
 from singsym.mechanism.model import Mechanism, Space
+from singsym.mechanism.problems import MechanismError, Problem
 
 FORMULATIONS = ("planar", "spherical", "joint", "natural", "quaternion")
 
@@ -30,6 +31,9 @@ def place(mechanism: Mechanism, formulation: str = "auto") -> Placement:
             chosen = str(mechanism.space)
     if chosen not in FORMULATIONS:
         raise ValueError(f"formulation {chosen!r}: expected auto, {', '.join(FORMULATIONS)}")
+    if chosen in [*Space] and chosen != mechanism.space:
+        found, expected = f"{chosen} for a {mechanism.space} mechanism", "auto, joint or natural"
+        raise MechanismError([Problem("formulation", found, expected, file=mechanism.origin)])
     if chosen == "planar":
         placed = planar.place(mechanism)
     elif chosen == "spherical":

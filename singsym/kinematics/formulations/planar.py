@@ -101,12 +101,11 @@ class _Placing:
     def _declare(self) -> None:
         one, zero = self.ring.one, self.ring.zero
         for link, group in self.plan.directed.items():
-            if group is None:
-                self.headings[link] = Heading(one, zero, one)
-                continue
-            c, s = (self.ring.gen(name) for name in group)
-            self.headings[link] = Heading(c, s, one)
-            self.equations.append(c**2 + s**2 - 1)
+            c, s = (one, zero) if group is None else (self.ring.gen(name) for name in group)
+            x, y = Heading(c, s, one).turn(tuple(map(self.sized.number, self.plan.turns[link])))
+            self.headings[link] = Heading(self.sized.reduced(x), self.sized.reduced(y), one)
+            if group is not None:
+                self.equations.append(c**2 + s**2 - 1)
         for pin, names in self.plan.free_pins.items():
             self.pins[pin] = (self.ring.gen(names[0]), self.ring.gen(names[1]))
         for name in self.mechanism.link(self.mechanism.ground).points:
@@ -225,8 +224,13 @@ class _Placing:
         if joint.kind is not JointKind.R or not {joint.first, joint.second} <= self.headings.keys():
             return {}
         one, two = self.headings[joint.first], self.headings[joint.second]
+        a, b = (one.x, one.y), (two.x, two.y)
+        if joint.reference is not None:
+            a = one.turn(self._axis(joint.first, joint.reference[0]))
+            b = two.turn(self._axis(joint.second, joint.reference[1]))
+        cosine, sine = a[0] * b[0] + a[1] * b[1], a[0] * b[1] - a[1] * b[0]
         return {
             joint.name: JointValue(
-                one.x * two.x + one.y * two.y, one.x * two.y - one.y * two.x, one.scale * two.scale
+                self.sized.reduced(cosine), self.sized.reduced(sine), one.scale * two.scale
             )
         }

@@ -9,8 +9,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import networkx
+import sympy
 
-from singsym.mechanism.model import Joint, JointKind, JointRate, Mechanism
+from singsym.kinematics.formulations.local import is_zero, tidy
+from singsym.mechanism.model import Joint, JointKind, JointRate, Mechanism, Vector
+from singsym.mechanism.problems import MechanismError, Problem
 
 
 @dataclass(frozen=True)
@@ -35,6 +38,7 @@ class Plan:
     """The variables and the order in which links are placed.
 
     directed: links with a direction of their own: the names of cosine and sine, None for the ground's.
+    turns: cosine and sine of the angle by which slides hold such a link turned from the named direction.
     pairs: two-pin links, which need none; struts: slides along the line through two pins.
     free_pins, free_links: coordinates by name; placing_slides: slide variables by joint.
     """
@@ -42,6 +46,7 @@ class Plan:
     variables: tuple[str, ...]
     pin_of: Mapping[tuple[str, str], Pin]
     directed: Mapping[str, tuple[str, str] | None]
+    turns: Mapping[str, Vector]
     pairs: Mapping[str, tuple[str, str]]
     struts: frozenset[str]
     steps: tuple[Step, ...]
@@ -52,6 +57,8 @@ class Plan:
 
 def plan(mechanism: Mechanism) -> Plan:
     """Choose the variables of a planar mechanism.
+
+    Raises `MechanismError` where slides in a loop cannot be parallel all at once.
 
     >>> from singsym.mechanism import load
     >>> plan(load("slider-crank").resolved).placing_slides != {}
@@ -88,6 +95,7 @@ def plan(mechanism: Mechanism) -> Plan:
         tuple(names),
         pin_of,
         directed,
+        _turns(mechanism, groups, {j.name for j in struts}),
         pairs,
         frozenset(j.name for j in struts),
         tuple(placing.steps),
@@ -150,6 +158,40 @@ def _parallel_groups(mechanism: Mechanism, struts: set[str]) -> dict[str, str]:
     for members in networkx.connected_components(graph):
         heads |= dict.fromkeys(members, min(members, key=order.__getitem__))
     return heads
+
+
+def _turns(mechanism: Mechanism, groups: Mapping[str, str], struts: set[str]) -> dict[str, Vector]:
+    """Cosine and sine of each link's angle from its group's head, since a slide has one axis in both links.
+
+    With directions as complex numbers, axis a in one link and b in the other: the other is turned by a/b.
+    """
+    slides = [j for j in mechanism.joints if j.kind is JointKind.P and j.name not in struts]
+    graph = networkx.MultiGraph()
+    graph.add_nodes_from(groups)
+    for joint in slides:
+        graph.add_edge(joint.first, joint.second, joint=joint)
+    turns: dict[str, Vector] = {head: (sympy.Integer(1), sympy.Integer(0)) for head in groups.values()}
+    for head in list(turns):
+        for known, link in networkx.bfs_edges(graph, head):
+            joint = next(data["joint"] for data in graph[known][link].values())
+            turns[link] = _turned(mechanism, joint, turns[known], known)
+    for joint in slides:
+        expected = _turned(mechanism, joint, turns[joint.first], joint.first)
+        if not all(is_zero(x - y) for x, y in zip(expected, turns[joint.second], strict=True)):
+            found = "slides in a loop whose axes cannot be parallel in both links of each"
+            place = f"joints.{joint.name}.axis"
+            raise MechanismError([Problem(place, found, "axes that agree around it", file=mechanism.origin)])
+    return turns
+
+
+def _turned(mechanism: Mechanism, joint: Joint, turn: Vector, known: str) -> Vector:
+    """The turn of the other link of a slide."""
+    assert joint.axes is not None
+    a, b = (mechanism.link(n).axes[x] for n, x in zip((joint.first, joint.second), joint.axes, strict=True))
+    if known != joint.first:
+        a, b = b, a
+    c, s = a[0] * b[0] + a[1] * b[1], a[1] * b[0] - a[0] * b[1]
+    return (tidy(turn[0] * c - turn[1] * s), tidy(turn[0] * s + turn[1] * c))
 
 
 def _pairs(

@@ -1,13 +1,18 @@
-"""Real points on every connected component of a real algebraic set, by critical points of a distance.
+"""Real points on every connected component of a real algebraic set or of an open part of it.
 
+They are critical points of H^2 / q^k, q a random sum of squares and H zero on the border of the part; with
+H = 1 those of a distance.  Lemma: with deg q^k > deg H^2 the function tends to 0 at infinity and at the
+border, so that it has a maximum on every connected component of H != 0; random q have finitely many (Sard).
 Source: Rouillier, Roy, Safey El Din, J. Complexity 16 (2000) 716-750; Aubry, Rouillier, Safey El Din,
-J. Symb. Comput. 34 (2002) 543-560 (recursion on the singular locus).
+J. Symb. Comput. 34 (2002) 543-560 (recursion on the singular locus); Harris, Hauenstein, Szanto, Smooth
+points on semi-algebraic sets, J. Symb. Comput. 116 (2023) 183-212.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from math import prod
 from random import Random
 
 from singsym.elimination.budget import Budget, Undecided, current
@@ -23,10 +28,15 @@ _CENTRES = 3
 
 
 def sample_points(
-    ring: Ring, equations: Sequence[Polynomial], budget: Budget | None = None
+    ring: Ring,
+    equations: Sequence[Polynomial],
+    budget: Budget | None = None,
+    *,
+    nonzero: Sequence[Polynomial] = (),
 ) -> tuple[RealPoint, ...]:
     """At least one real point on every connected component of the real zero set; none proves it empty.
 
+    nonzero: polynomials whose zeros are removed before components are counted.
     Raises `Undecided` (pieces not known to be reduced and of one dimension, no time left).
 
     >>> R = Ring(("x", "y"))
@@ -39,13 +49,17 @@ def sample_points(
     system = [f for f in (*equations, *ring.relations) if not f.is_zero]
     found: list[RealPoint] = []
     with current(budget).part() as limited:
-        for component in decompose(system, ring=ring, budget=limited):
-            found.extend(component_samples(component, system, limited))
-    return tuple(p for p in dict.fromkeys(found) if pinned(p, ring.constants))
+        for component in decompose(system, nonzero, ring=ring, budget=limited):
+            found.extend(component_samples(component, system, limited, nonzero=nonzero))
+    return tuple(dict.fromkeys(found))
 
 
 def component_samples(
-    component: Component, equations: Sequence[Polynomial] = (), budget: Budget | None = None
+    component: Component,
+    equations: Sequence[Polynomial] = (),
+    budget: Budget | None = None,
+    *,
+    nonzero: Sequence[Polynomial] = (),
 ) -> tuple[RealPoint, ...]:
     """The same for one piece of V(equations), without what other pieces of that set have as well.
 
@@ -59,47 +73,80 @@ def component_samples(
     if dimension < 0:
         return ()
     if dimension == 0:
-        return real_points(component.ideal, budget)
-    generators = component.generators
+        return _pinned(real_points(component.ideal, budget), nonzero)
     codimension = len(ring.names) - dimension
-    if codimension == 0:
+    if codimension == 0 and not nonzero:
         return (_origin(ring),)
-    known = component.prime or component.cohen_macaulay
-    if not known and codimension not in (len(generators), len(equations)):
-        raise Undecided(f"{component!r} is not known to have one dimension only")
     # finitely many critical and singular points together: then the piece is reduced and nothing is left
     chosen = next(_choices(component, equations, codimension))
     try:
-        return real_points(Ideal(ring, _critical_system(component, chosen, Random(5))), budget)
+        return _critical_points(component, chosen, nonzero, Random(5), budget)
     except NotZeroDimensional:
-        local, singular = regular_generators(component, equations, codimension, budget)
-    found = list(_critical_points(component, local, singular, budget))
-    if singular.dimension > 0:
-        found.extend(sample_points(ring, singular.generators, budget))
-    return tuple(found)
+        found, singular = regular_samples(component, equations, budget, nonzero=nonzero)
+    return (*found, *sample_points(ring, singular.generators, budget, nonzero=nonzero))
+
+
+def regular_samples(
+    component: Component,
+    equations: Sequence[Polynomial] = (),
+    budget: Budget | None = None,
+    *,
+    nonzero: Sequence[Polynomial] = (),
+) -> tuple[tuple[RealPoint, ...], Ideal]:
+    """A point on every connected component of the part where some gradients are independent; and the rest.
+
+    The piece is as in `component_samples`.  The rest is an ideal of the piece's other points.  Where the
+    first part has no real point, the real piece has a smaller dimension than `component.dimension`.
+
+    >>> R = Ring(("x", "y"))
+    >>> x, y = R.gens
+    >>> [len(regular_samples(c)[0]) for c in decompose([x**2 + y**2], ring=R)]
+    [0]
+    """
+    budget = current(budget)
+    ring = component.ideal.ring
+    chosen, border, singular = _regular_part(component, equations, budget)
+    random = Random(5)
+    for _ in range(_CENTRES):
+        try:
+            return _critical_points(component, chosen, (*nonzero, *border), random, budget), singular
+        except NotZeroDimensional:
+            continue
+    raise Undecided(f"the critical points on {component!r} are not finite for {_CENTRES} centres in {ring!r}")
 
 
 def _origin(ring: Ring) -> RealPoint:
     return RealPoint(ring, (0, 1), (1,), ((),) * len(ring.names), Fraction(0), Fraction(0))
 
 
-def regular_generators(
-    component: Component, equations: Sequence[Polynomial], codimension: int, budget: Budget
-) -> tuple[tuple[Polynomial, ...], Ideal]:
+def _regular_part(
+    component: Component, equations: Sequence[Polynomial], budget: Budget
+) -> tuple[tuple[Polynomial, ...], tuple[Polynomial, ...], Ideal]:
     """As many elements of the ideal as its codimension, and where their gradients are dependent.
 
-    Outside that smaller set the piece is a manifold, given by these elements.
+    Between the two: a polynomial that vanishes there, and not on a whole component of the piece, if needed.
+    Outside of its zeros the piece is a manifold, given by the elements, and all of its regular points have
+    such points near them.
     """
+    ring, codimension = component.ideal.ring, len(component.ideal.ring.names) - component.dimension
+    if not codimension:
+        return (), (), Ideal(ring, (ring.one,))
+    known = component.prime or component.cohen_macaulay
+    if not known and codimension not in (len(component.generators), len(equations)):
+        raise Undecided(f"{component!r} is not known to have one dimension only")
     for chosen in _choices(component, equations, codimension):
         budget.check("real points on every component")
-        matrix = PolynomialMatrix.of(component.ideal.ring, jacobian(chosen, component.ideal.ring.names))
-        found = [component.ideal.reduce(m) for _, _, m in minors(matrix, codimension)]
-        if not any(found):
+        matrix = PolynomialMatrix.of(ring, jacobian(chosen, ring.names))
+        found = [m for _, _, minor in minors(matrix, codimension) if (m := component.ideal.reduce(minor))]
+        if not found:
             continue
-        # on a prime every minor that is not in the ideal cuts the dimension down
-        singular = component.ideal + Ideal(component.ideal.ring, [m for m in found if m])
-        if component.prime or singular.dimension < component.dimension:
-            return chosen, singular
+        singular = component.ideal + Ideal(ring, found)
+        if singular.is_unit():
+            return chosen, (), singular
+        for minor in sorted((m.squarefree_part() for m in found), key=lambda m: (m.total_degree, len(m))):
+            # on a prime every minor that is not in the ideal cuts the dimension down
+            if component.prime or (component.ideal + Ideal(ring, (minor,))).dimension < component.dimension:
+                return chosen, (minor,), singular
     raise Undecided(f"no reduced generators were found for {component!r}")
 
 
@@ -152,52 +199,53 @@ def _modulo(polynomial: Polynomial, point: Sequence[int], prime: int) -> int:
 
 
 def _critical_points(
-    component: Component, local: Sequence[Polynomial], singular: Ideal, budget: Budget
-) -> Iterator[RealPoint]:
-    """Where the distance from a generic point is critical; finitely many singular points as well."""
+    component: Component,
+    local: Sequence[Polynomial],
+    nonzero: Sequence[Polynomial],
+    random: Random,
+    budget: Budget,
+) -> tuple[RealPoint, ...]:
+    """The real points outside the zeros of `nonzero` where H^2 / q^k is critical or `local` not regular.
+
+    Raises `NotZeroDimensional` where they are infinitely many.
+    """
+    budget.check("critical points")
     ring = component.ideal.ring
-    random = Random(5)
-    for _ in range(_CENTRES):
-        budget.check("critical points of a distance")
-        system = _critical_system(component, local, random)
-        try:
-            if singular.dimension <= 0:
-                yield from real_points(Ideal(ring, system), budget)
-            else:
-                for piece in _away_from(component, system, singular, budget):
-                    yield from (_dropped(p, ring) for p in real_points(piece, budget))
-        except NotZeroDimensional:
-            continue
-        return
-    raise Undecided(
-        f"the critical points of the distance on {component!r} are not finite for {_CENTRES} centres"
-    )
+    border = prod((component.ideal.reduce(p) for p in nonzero), start=ring.one)
+    if border.is_zero:
+        return ()
+    border = border.squarefree_part()
+    if border.is_constant:
+        system = _critical_system(component, local, ring.one, random)
+        return _pinned(real_points(Ideal(ring, system), budget))
+    wide = ring.with_names((*ring.names, "1/border"))
+    system = _critical_system(component, local, border, random)
+    outside = wide.gens[-1] * wide.convert(border) - 1
+    points = real_points(Ideal(wide, (*map(wide.convert, system), outside)), budget)
+    return _pinned([_dropped(p, ring) for p in points])
 
 
 def _critical_system(
-    component: Component, local: Sequence[Polynomial], random: Random
+    component: Component, local: Sequence[Polynomial], border: Polynomial, random: Random
 ) -> tuple[Polynomial, ...]:
-    """Where the gradients of `local` and the direction to a random rational point are dependent."""
+    """Where the gradients of `local` and of 2 log H - k log q, times H q, are dependent."""
     ring = component.ideal.ring
     centre = [ring.constant(random.randint(-40, 40)) / random.randint(7, 13) for _ in ring.names]
-    rows = [*jacobian(local, ring.names), [x - a for x, a in zip(ring.gens, centre, strict=True)]]
+    offsets = [x - a for x, a in zip(ring.gens, centre, strict=True)]
+    if border.is_constant:
+        direction = offsets
+    else:
+        q = sum((random.randint(1, 5) * d**2 for d in offsets), start=ring.one)
+        k = border.total_degree + 1
+        direction = [2 * q * border.derivative(n) - k * border * q.derivative(n) for n in ring.names]
+    rows = [*jacobian(local, ring.names), direction]
     found = [m for _, _, m in minors(PolynomialMatrix.of(ring, rows), len(local) + 1)]
     return (*component.generators, *map(component.ideal.reduce, found))
 
 
-def _away_from(
-    component: Component, system: Sequence[Polynomial], singular: Ideal, budget: Budget
-) -> Iterator[Ideal]:
-    """For each minor the critical points where it is not zero: together all that are not singular."""
-    ring = component.ideal.ring
-    wide = ring.with_names((*ring.names, "1/minor"))
-    t = wide.gens[-1]
-    base = [wide.convert(f) for f in system]
-    known = set(component.generators)
-    for minor in singular.generators:
-        if minor not in known:
-            budget.check("critical points of a distance")
-            yield Ideal(wide, (*base, t * wide.convert(minor) - 1))
+def _pinned(points: Sequence[RealPoint], nonzero: Sequence[Polynomial] = ()) -> tuple[RealPoint, ...]:
+    """The points that have the ring's constants at their own values and are outside some zeros."""
+    return tuple(p for p in points if pinned(p, p.ring.constants) and all(p.sign(f) for f in nonzero))
 
 
 def _dropped(point: RealPoint, ring: Ring) -> RealPoint:

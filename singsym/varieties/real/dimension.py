@@ -13,8 +13,8 @@ from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Polynomial
 from singsym.varieties.decomposition import Component, decompose
 from singsym.varieties.real.box import BoxPoint
-from singsym.varieties.real.critical import regular_generators
-from singsym.varieties.real.emptiness import is_empty_over_reals
+from singsym.varieties.real.critical import regular_samples
+from singsym.varieties.real.emptiness import border_polynomials, is_empty_over_reals
 from singsym.varieties.real.intervals import at_precision, evaluate, jacobian, rank_at_least
 from singsym.varieties.real.points import RealPoint
 from singsym.varieties.real.witness import RealSystem, Witness, find_witness
@@ -122,17 +122,11 @@ def component_dimension(
     found = find_witness(strict, seed=seed, tries=8, dimension=component.dimension, budget=budget)
     if found is not None and local_dimension(found, component.ideal) == component.dimension:
         return component.dimension, found
-    codimension = len(system.ring.names) - component.dimension
-    if not codimension:
-        regular, singular = strict, Ideal(system.ring, (system.ring.one,))
-    else:
-        _, singular = regular_generators(component, system.closed_equations, codimension, budget)
-        regular = replace(strict, exclusions=(*system.exclusions, singular.generators))
-    verdict = is_empty_over_reals(regular, budget, seed=seed)
-    if verdict.is_no:
-        return component.dimension, verdict.witness
-    if verdict.is_undecided:
-        raise Undecided(f"the real dimension of {component!r}: {verdict.reason}")
+    borders = tuple(border_polynomials(component, strict))
+    points, singular = regular_samples(component, system.closed_equations, budget, nonzero=borders)
+    point = next((p for p in points if strict.admits(p)), None)
+    if point is not None:
+        return component.dimension, Witness(point)
     smaller = [singular.generators, *((*component.generators, p) for p in boundaries)]
     parts = [real_dimension(replace(system, equations=e), budget, seed=seed) for e in smaller]
     return max(parts, key=lambda pair: pair[0])

@@ -16,11 +16,12 @@ from singsym.elimination.verdict import Verdict
 from singsym.polynomials import Polynomial
 from singsym.varieties.decomposition import Component, decompose
 from singsym.varieties.real.bounds import sign_within, solution_bounds
-from singsym.varieties.real.critical import component_samples, sample_points
-from singsym.varieties.real.points import RealPoint, has_real_root
+from singsym.varieties.real.critical import component_samples
+from singsym.varieties.real.points import RealPoint
+from singsym.varieties.real.roots import has_real_root
 from singsym.varieties.real.squares import sum_of_squares
 from singsym.varieties.real.witness import RealSystem, Witness, find_witness
-from singsym.varieties.real.zerodim import certainties, pinned, real_points
+from singsym.varieties.real.zerodim import certainties, real_points
 
 _SEARCH_SECONDS = 15.0
 
@@ -184,59 +185,48 @@ def _no_real_coordinate(component: Component) -> bool:
 def _by_samples(
     component: Component, system: RealSystem, equations: Sequence[Polynomial], budget: Budget
 ) -> Verdict:
-    """Points of the closed set, then of that lifted by slack variables so that all conditions are closed."""
-    ring = system.ring
-    points = [p for p in component_samples(component, equations, budget) if pinned(p, ring.constants)]
+    """Points of the closed set, then of its open part where all conditions hold strictly, then of borders."""
+    points = component_samples(component, equations, budget)
     if not points:
         return Verdict.yes(reason="no real point is nearest to a generic one")
-    for p in points:
-        if system.admits(p) and not any(p.sign(f) for f in system.equations):
-            return Verdict.no(witness=Witness(p))
-    if (
-        points
-        and _sides_are_constant(component, system, budget)
-        and not any(_inside(system, p) for p in points)
-    ):
-        return Verdict.yes(reason="an inequality fails on every connected component, which it does not cross")
-    # equations as many as the codimension prove that all pieces have the same dimension: keep these, then
-    complete = len(equations) == len(ring.names) - component.dimension
-    lifted = _lifted(replace(system, equations=tuple(equations)) if complete else system)
-    if lifted.ring == ring:
-        raise ArithmeticError("real points that solve a system without further conditions are not admitted")
-    found = sample_points(lifted.ring, lifted.equations, budget)
-    if not found:
-        return Verdict.yes(reason="no real point of the lifted system is nearest to a generic one")
-    point = found[0]
-    numerators = tuple(point.numerators[point.ring.index(n)] for n in ring.names)
-    return Verdict.no(witness=Witness(replace(point, ring=ring, numerators=numerators)))
+    admitted = _admitted(points, system)
+    if admitted is not None:
+        return Verdict.no(witness=Witness(admitted))
+    borders = [p for p in border_polynomials(component, system) if _is_crossed(component, p, budget)]
+    if not borders:
+        return Verdict.yes(reason="a condition fails on every connected component, which it does not cross")
+    admitted = _admitted(component_samples(component, equations, budget, nonzero=borders), system)
+    if admitted is not None:
+        return Verdict.no(witness=Witness(admitted))
+    for p in set(system.nonnegative) & set(borders):
+        others = tuple(q for q in system.nonnegative if q != p)
+        border = replace(system, equations=(*component.generators, p), nonnegative=others)
+        verdict = is_empty_over_reals(border, budget)
+        if verdict.is_undecided:
+            raise Undecided(verdict.reason)
+        if verdict.is_no:
+            return verdict
+    return Verdict.yes(reason="a condition fails on every connected component between its borders")
 
 
-def _inside(system: RealSystem, point: RealPoint) -> bool:
-    return all(point.sign(p) > 0 for p in (*system.positive, *system.nonnegative))
+def _admitted(points: Sequence[RealPoint], system: RealSystem) -> RealPoint | None:
+    return next((p for p in points if system.admits(p) and not any(map(p.sign, system.equations))), None)
 
 
-def _sides_are_constant(component: Component, system: RealSystem, budget: Budget) -> bool:
-    """Whether no inequality becomes an equality on the real piece: signs are constant on components then."""
+def border_polynomials(component: Component, system: RealSystem) -> Iterator[Polynomial]:
+    """Polynomials that do not vanish where the conditions hold strictly; not those zero on all of a piece."""
     for p in (*system.positive, *system.nonnegative):
-        border = RealSystem(system.ring, (*component.generators, p))
-        try:
-            if not _decided(border, budget.part(_SEARCH_SECONDS), 0, 5).is_yes:
-                return False
-        except Undecided:
-            budget.check("real points where an inequality is an equality")
-            return False
-    return True
-
-
-def _lifted(system: RealSystem) -> RealSystem:
-    """p > 0 as p s^2 = 1, p >= 0 as p = s^2, an exclusion as (sum of squares) s = 1."""
-    count = len(system.positive) + len(system.nonnegative) + len(system.exclusions)
-    wide = system.ring.with_names((*system.ring.names, *(f"slack {k}" for k in range(count))))
-    slack = iter(wide.gens[len(system.ring.names) :])
-    equations = [wide.convert(f) for f in system.equations]
-    equations += [wide.convert(p) * next(slack) ** 2 - 1 for p in system.positive]
-    equations += [wide.convert(p) - next(slack) ** 2 for p in system.nonnegative]
+        if p in system.positive or not component.vanishes(p):
+            yield p
     for group in system.exclusions:
-        total = group[0] if len(group) == 1 else sum((g * g for g in group), start=system.ring.zero)
-        equations.append(wide.convert(total) * next(slack) - 1)
-    return RealSystem(wide, tuple(equations))
+        yield group[0] if len(group) == 1 else sum((g * g for g in group), start=system.ring.zero)
+
+
+def _is_crossed(component: Component, border: Polynomial, budget: Budget) -> bool:
+    """Whether a border may have real points on a piece."""
+    system = RealSystem(component.ideal.ring, (*component.generators, border))
+    try:
+        return not _decided(system, budget.part(_SEARCH_SECONDS), 0, 5).is_yes
+    except Undecided:
+        budget.check("real points where a condition changes")
+        return True

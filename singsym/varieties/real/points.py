@@ -1,6 +1,6 @@
 """Exact real points: rational functions of one isolated real root, refined at will, with decided signs.
 
-Source: Rouillier (1999), see parametrization.py; isolation and refinement of roots by Arb (https://arblib.org).
+Source: Rouillier (1999), see parametrization.py; roots as in roots.py.
 """
 
 from __future__ import annotations
@@ -9,13 +9,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, cast
+from typing import Any
 
-from flint import acb, arb, fmpz_poly
+from flint import arb, fmpz_poly
 
 from singsym.polynomials import Polynomial, Ring
-from singsym.varieties.real.intervals import at_precision, ball, evaluate, exact_bounds
+from singsym.varieties.real.intervals import at_precision, evaluate, exact_bounds
 from singsym.varieties.real.parametrization import Parametrization
+from singsym.varieties.real.roots import real_roots, refined_root
 
 
 @dataclass(frozen=True)
@@ -54,7 +55,7 @@ class RealPoint:
         """The same point with boxes of relative radius below 2^-bits."""
         if bits <= self.bits:
             return self
-        root = _root(fmpz_poly(list(self.minimal)), self.low, self.high, bits)
+        root = refined_root(fmpz_poly(list(self.minimal)), self.low, self.high, bits)
         low, high = exact_bounds(root)
         return RealPoint(
             self.ring,
@@ -173,29 +174,11 @@ def real_points_of(parametrization: Parametrization, bits: int = 64) -> list[Rea
         if factor.degree() < 1:
             continue
         denominator, numerators = _modulo_factor(parametrization, factor)
-        with at_precision(128):
-            roots = _real_roots(factor)
-        for root in roots:
-            low, high = exact_bounds(root)
-            coefficients = tuple(int(c) for c in factor.coeffs())
-            point = RealPoint(parametrization.ring, coefficients, denominator, numerators, low, high, 32)
+        coefficients = tuple(int(c) for c in factor.coeffs())
+        for low, high in real_roots(factor):
+            point = RealPoint(parametrization.ring, coefficients, denominator, numerators, low, high, 0)
             found.append(point.refine(bits))
     return sorted(found, key=lambda p: (p.floats, p.low))
-
-
-def _real_roots(squarefree: fmpz_poly) -> list[arb]:
-    """Disjoint balls around the real roots; FLINT isolates all complex ones and marks the real ones."""
-    roots = cast("list[tuple[acb, int]]", squarefree.complex_roots())
-    return [root.real for root, _ in roots if root.imag == 0]
-
-
-def has_real_root(polynomial: fmpz_poly) -> bool:
-    """Whether a polynomial over Z in one variable, not zero, has a real root.
-
-    >>> has_real_root(fmpz_poly([1, 0, 1])), has_real_root(fmpz_poly([1, 2, 1]))
-    (False, True)
-    """
-    return bool(_real_roots(polynomial // polynomial.gcd(polynomial.derivative())))
 
 
 def _modulo_factor(
@@ -223,44 +206,6 @@ def _pseudo_remainder(dividend: fmpz_poly, divisor: fmpz_poly) -> fmpz_poly:
     return remainder
 
 
-# -- refinement --------------------------------------------------------------------------------------
-
-
-def _root(polynomial: fmpz_poly, low: Fraction, high: Fraction, bits: int) -> arb:
-    """A ball of relative radius below 2^-bits around the only root in [low, high], by interval Newton."""
-    precision = bits + 32
-    derivative = polynomial.derivative()
-    if low == high:
-        with at_precision(precision):
-            return ball(low)
-    while True:
-        with at_precision(precision + 32 + polynomial.height_bits() // 8):
-            interval = ball(low).union(ball(high))
-            for _ in range(4 + precision.bit_length()):
-                if interval.rad() <= abs(interval.mid()).max(arb(2) ** -bits) * arb(2) ** -bits:
-                    return interval
-                middle = arb(interval.mid())
-                slope = derivative(interval)
-                if slope.contains(0):
-                    low, high = _bisect(polynomial, low, high)
-                    interval = ball(low).union(ball(high))
-                    continue
-                step = middle - polynomial(middle) / slope
-                if not step.overlaps(interval):
-                    raise ArithmeticError(f"no root of the polynomial between {low} and {high}")
-                interval = step.intersection(interval)
-        precision *= 2
-
-
-def _bisect(polynomial: fmpz_poly, low: Fraction, high: Fraction) -> tuple[Fraction, Fraction]:
-    coefficients = [int(c) for c in polynomial.coeffs()]
-    middle = (low + high) / 2
-    at_middle = _value(coefficients, middle)
-    if at_middle == 0:
-        return middle, middle
-    return (middle, high) if (_value(coefficients, low) > 0) == (at_middle > 0) else (low, middle)
-
-
 def _value(coefficients: Sequence[int], x: Fraction) -> Fraction:
     total = Fraction(0)
     for c in reversed(coefficients):
@@ -274,7 +219,7 @@ def _coordinates(point: RealPoint, bits: int) -> tuple[arb, ...]:
     numerators = [fmpz_poly(list(n)) for n in point.numerators]
     working = bits + 32
     while True:
-        root = _root(minimal, point.low, point.high, working)
+        root = refined_root(minimal, point.low, point.high, working)
         with at_precision(2 * working + 64):
             below = denominator(root)
             if not below.contains(0):
@@ -292,17 +237,16 @@ def _equal_coordinates(one: RealPoint, two: RealPoint, i: int) -> bool:
     first, second = (_coordinate_polynomial(p, i) for p in (one, two))
     if first != second:
         return False
-    with at_precision(128):
-        count = len(_real_roots(first))
-    if count == 1:
+    roots = real_roots(first)
+    if len(roots) == 1:
         return True
     while True:
         # two conjugates further apart than the boxes are long are told apart by disjoint balls
         with at_precision(2 * bits + 64):
-            roots = _real_roots(first)
+            balls = [refined_root(first, low, high, bits) for low, high in roots]
             a, b = one.refine(bits).box[i], two.refine(bits).box[i]
-            near_a = [k for k, r in enumerate(roots) if r.overlaps(a)]
-            near_b = [k for k, r in enumerate(roots) if r.overlaps(b)]
+            near_a = [k for k, r in enumerate(balls) if r.overlaps(a)]
+            near_b = [k for k, r in enumerate(balls) if r.overlaps(b)]
         if len(near_a) == len(near_b) == 1:
             return near_a == near_b
         bits *= 2
