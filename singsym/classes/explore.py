@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from singsym.classes.patches import Patch, patches
-from singsym.classes.strata import Ground, NotEvident, RankProblem, Samples, Stratum, ranked
+from singsym.classes.strata import Ground, Least, NotEvident, RankProblem, Samples, Stratum, ranked
 from singsym.classes.types import Defects, SingularityType
 from singsym.classes.work import Runner
 from singsym.elimination.budget import Budget, Undecided
@@ -37,7 +37,7 @@ class Branch:
         they are printed.
     away: loci that other branches search, left out here.
     feasible: the exclusions and inequalities of the feasible set Omega (its equations are not used).
-    first, evident: see `strata.ranked`.
+    first, least, evident: see `strata.ranked`.
     seconds, memory_mb: the budget of the decomposition.
     """
 
@@ -47,6 +47,7 @@ class Branch:
     path: Equations = ()
     away: tuple[Equations, ...] = ()
     first: str = "L_O"
+    least: tuple[tuple[str, int], ...] = ()
     evident: tuple[SingularityType, ...] = ()
     seconds: float | None = None
     memory_mb: int | None = None
@@ -56,10 +57,15 @@ class Branch:
         """The feasible set off what other branches search."""
         return replace(self.feasible, exclusions=(*self.feasible.exclusions, *self.away))
 
-    def within(self, locus: Equations, away: tuple[Equations, ...], equations: Equations) -> Branch:
-        """The part of this branch on one more locus."""
+    def within(
+        self, locus: Equations, away: tuple[Equations, ...], equations: Equations, least: Least
+    ) -> Branch:
+        """The part of this branch on one more locus, with what is known of the ranks there."""
         path = tuple(dict.fromkeys((*self.path, *locus)))
-        return replace(self, equations=(*equations, *locus), path=path, away=(*self.away, *away))
+        known = dict(self.least)
+        known |= {name: max(defect, known.get(name, 0)) for name, defect in least.items()}
+        ready = replace(self, path=path, away=(*self.away, *away), least=tuple(sorted(known.items())))
+        return replace(ready, equations=(*equations, *locus))
 
 
 @dataclass(frozen=True)
@@ -149,14 +155,17 @@ class _Exploring:
 
     def _ranked(self, ground: Ground) -> None:
         branch = self.branch
-        found = ranked(branch.problem, ground, branch.admitted, branch.first, branch.evident)
+        found = ranked(
+            branch.problem, ground, branch.admitted, branch.first, dict(branch.least), branch.evident
+        )
         if found.stratum is not None:
             self.strata.append(replace(found.stratum, loci=(*branch.away, *found.stratum.loci)))
         taken: tuple[Equations, ...] = ()
-        for locus in (e for whole in found.loci for e in split_product(whole)):
-            if not any(set(known) <= set(locus) for known in taken):
-                self.following.append(branch.within(locus, taken, ground.equations))
-                taken = (*taken, locus)
+        for whole, least in found.loci.items():
+            for locus in split_product(whole):
+                if not any(set(known) <= set(locus) for known in taken):
+                    self.following.append(branch.within(locus, taken, ground.equations, least))
+                    taken = (*taken, locus)
 
 
 def _samples(component: Component, feasible: RealSystem) -> Samples | None:
@@ -258,7 +267,7 @@ def _started(root: Branch, singular: SingularLoci) -> tuple[list[Found], list[Br
         key=lambda side: sum(len(p) for locus in side[1] for p in locus),
     )
     ready = replace(root, first=first, evident=evident)
-    return found, [ready.within(locus, loci[:i], root.equations) for i, locus in enumerate(loci)]
+    return found, [ready.within(locus, loci[:i], root.equations, {first: 1}) for i, locus in enumerate(loci)]
 
 
 def _evident_strata(root: Branch, singular: SingularLoci) -> Iterator[Found]:

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import combinations
+from itertools import combinations, product
 from math import comb
 
 from singsym.classes.patches import Patch
@@ -46,18 +46,21 @@ class RankProblem:
     N: int
     n: int
 
-    def defect(self, name: str, rank: int) -> int:
-        """How far a matrix is below full rank, from the rank of its reduced form: delta, p, k_I or k_O."""
-        full = self.N - self.n if name == "L_p" else self.N
-        return full - rank - self.eliminated
+    def full(self, name: str) -> int:
+        """The full rank of a reduced matrix: how far its rank is below is delta, p, k_I or k_O."""
+        return (self.N - self.n if name == "L_p" else self.N) - self.eliminated
 
 
 @dataclass(frozen=True)
 class BlockRank:
-    """The rank of a block where the `minors` of that size do not all vanish."""
+    """The rank of a block where the `minors` of that size do not all vanish.
+
+    exact: whether all minors of that size vanish where these do.
+    """
 
     rank: int
     minors: tuple[Polynomial, ...]
+    exact: bool = True
 
 
 @dataclass(frozen=True)
@@ -117,10 +120,10 @@ class Ground:
         """
         if certifier.normal_form(self.patch.restrict(polynomial)).is_zero:
             return True
-        if self.component is not None and self.component.ideal.contains(polynomial):
-            return True
         if is_large(polynomial, self.samples):
             return False
+        if self.component is not None and self.component.ideal.contains(polynomial):
+            return True
         if self.component is None:
             raise NotEvident(polynomial)
         return not self.component.prime and self.component.ideal.radical_contains(polynomial)
@@ -132,19 +135,21 @@ def is_large(polynomial: Polynomial, samples: Samples) -> bool:
     return any(abs(polynomial.evaluate(x)) > 1e-6 * size for x in samples)
 
 
-def _start(block: PolynomialMatrix, samples: Samples) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """Rows and columns of a minor that is as large as the numerical rank at the samples."""
-    best: tuple[tuple[int, ...], tuple[int, ...]] = ((), ())
+Places = tuple[tuple[int, ...], tuple[int, ...]]
+"""Rows and columns of a minor."""
+
+
+def numerical_minor(block: PolynomialMatrix, samples: Samples) -> Places:
+    """A minor that is as large as the rank of the block at one of the samples, and not small there."""
+    best: Places = ((), ())
     for x in samples:
         found = pivots([[float(e) for e in row] for row in block.evaluate(x)])
-        if len(found[0]) > len(best[0]):
+        if len(found[0]) > len(best[0]) and is_large(determinant(block.select(*found)), (x,)):
             best = found
     return best
 
 
-def _bordered(
-    shape: tuple[int, int], rows: Sequence[int], columns: Sequence[int]
-) -> Iterator[tuple[tuple[int, ...], tuple[int, ...]]]:
+def _bordered(shape: tuple[int, int], rows: Sequence[int], columns: Sequence[int]) -> Iterator[Places]:
     for i in range(shape[0]):
         if i in rows:
             continue
@@ -153,25 +158,30 @@ def _bordered(
                 yield tuple(sorted((*rows, i))), tuple(sorted((*columns, j)))
 
 
-def block_rank(block: PolynomialMatrix, ground: Ground, certifier: Certifier) -> BlockRank:
-    """The rank of a matrix on V(ideal) minus the common zeros of the minors returned.
+def block_rank(
+    block: PolynomialMatrix,
+    ground: Ground,
+    certifier: Certifier,
+    start: Places = ((), ()),
+    largest: bool = False,
+) -> BlockRank:
+    """The rank of a matrix on the ground minus the common zeros of the minors returned.
 
     Grows a nonvanishing minor border by border until all bordering minors vanish (lemma above); of several
     nonvanishing ones the one with the simplest factors is taken.
+    start: a nonvanishing minor to start from; largest: whether a larger one is known not to exist.
 
     >>> from singsym.polynomials import Ring
-    >>> from singsym.varieties.decomposition import decompose
     >>> R = Ring(("x", "y"))
     >>> x, y = R.gens
-    >>> (line,) = decompose([y], ring=R)
-    >>> block_rank(PolynomialMatrix.of(R, [[x, y], [x, y]]), Ground(line))
-    BlockRank(rank=1, minors=(x,))
+    >>> line = Ground(Patch(R, {"y": R.zero}, ()), ((1.0, 0.0),))
+    >>> matrix = PolynomialMatrix.of(R, [[x, y], [x, y]])
+    >>> block_rank(matrix, line, line.certifier(RealSystem(R, ()), ()))
+    BlockRank(rank=1, minors=(x,), exact=True)
     """
-    rows, columns = _start(block, ground.samples)
+    rows, columns = start
     last = determinant(block.select(rows, columns)) if rows else None
-    if last is not None and ground.vanishes(last, certifier):
-        rows, columns, last = (), (), None
-    while True:
+    while not largest:
         candidates = []
         for r, c in _bordered(block.shape, rows, columns):
             minor = determinant(block.select(r, c))
@@ -186,47 +196,45 @@ def block_rank(block: PolynomialMatrix, ground: Ground, certifier: Certifier) ->
         return BlockRank(0, ())
     if last.is_constant:
         return BlockRank(len(rows), ())
-    return BlockRank(len(rows), _locus(block, ground, certifier, rows, columns))
+    return _with_locus(block, ground, certifier, (rows, columns))
 
 
 def _weight(minor: Polynomial) -> tuple[int, int]:
     return (minor.total_degree, len(minor))
 
 
-def _locus(
-    block: PolynomialMatrix,
-    ground: Ground,
-    certifier: Certifier,
-    rows: tuple[int, ...],
-    columns: tuple[int, ...],
-) -> tuple[Polynomial, ...]:
-    """r-minors whose common zeros on V(ideal) contain the locus of lower rank: all where they are few."""
+def _with_locus(block: PolynomialMatrix, ground: Ground, certifier: Certifier, largest: Places) -> BlockRank:
+    """r-minors whose common zeros on the ground contain the locus of lower rank: all where they are few."""
+    rows, columns = largest
     r = len(rows)
-    choices: list[tuple[tuple[int, ...], tuple[int, ...]]] = []
-    if comb(block.shape[0], r) * comb(block.shape[1], r) <= ALL_MINORS:
-        choices = [
-            (i, j)
-            for i in combinations(range(block.shape[0]), r)
-            for j in combinations(range(block.shape[1]), r)
-        ]
-    elif r == block.shape[0] and (easy := easy_columns(block)):
-        choices = [(rows, c) for c in easy[:EASY_MINORS]]
+    height, width = block.shape
+    exact = comb(height, r) * comb(width, r) <= ALL_MINORS
+    choices: Iterable[Places]
+    if exact:
+        choices = product(combinations(range(height), r), combinations(range(width), r))
+    elif r == height and (easy := easy_columns(block)):
+        choices = ((rows, c) for c in easy[:EASY_MINORS])
     else:
-        choices = [(rows, columns), *_swapped(block.shape, rows, columns)]
+        choices = (largest, *_swapped(block.shape, rows, columns))
     minors: dict[Polynomial, None] = {}
     for i, j in choices:
         minor = determinant(block.select(i, j))
-        if not minor or ground.vanishes(minor, certifier):
+        if not minor:
+            continue
+        try:
+            if ground.vanishes(minor, certifier):
+                continue
+        except NotEvident:
+            # with fewer minors the zeros are a larger set
+            exact = False
             continue
         if minor.is_constant:
-            return ()
+            return BlockRank(r, ())
         minors[minor.squarefree_part()] = None
-    return tuple(sorted(minors, key=lambda m: (_weight(m), str(m))))
+    return BlockRank(r, tuple(sorted(minors, key=lambda m: (_weight(m), str(m)))), exact)
 
 
-def _swapped(
-    shape: tuple[int, int], rows: tuple[int, ...], columns: tuple[int, ...]
-) -> Iterator[tuple[tuple[int, ...], tuple[int, ...]]]:
+def _swapped(shape: tuple[int, int], rows: tuple[int, ...], columns: tuple[int, ...]) -> Iterator[Places]:
     """Index sets that differ from the given ones in one row or one column."""
     for out in rows:
         for new in range(shape[0]):
@@ -261,6 +269,8 @@ def relevant(defects: Defects) -> tuple[str, ...]:
     return tuple(names)
 
 
+_BELOW = {"L": ("L",), "L_p": ("L_p",), "L_I": ("L_I", "L_p", "L"), "L_O": ("L_O", "L_p", "L")}
+"""The matrices that are no further below full rank than one is: k_I, k_O >= max(p, delta) (Table 1)."""
 _OWN = {
     "L_O": SingularityType.RI | SingularityType.IO,
     "L_I": SingularityType.RO | SingularityType.II,
@@ -269,16 +279,21 @@ _OWN = {
 _BOTH = _OWN["L_O"] | _OWN["L_I"]
 
 
+Least = Mapping[str, int]
+"""Of some matrices, how far at least they are below full rank on a set."""
+
+
 @dataclass(frozen=True)
 class Ranked:
     """What the ranks on a ground come to: a stratum where the types are constant, and what is left of it.
 
     stratum: None where its configurations are known without a search.
-    loci: closed sets whose points have to be looked at by themselves; the stratum lies off all of them.
+    loci: closed sets whose points have to be looked at by themselves, with what is known of the ranks there;
+        the stratum lies off all of them.
     """
 
     stratum: Stratum | None
-    loci: tuple[tuple[Polynomial, ...], ...]
+    loci: Mapping[tuple[Polynomial, ...], Least]
 
 
 def ranked(
@@ -286,13 +301,14 @@ def ranked(
     ground: Ground,
     feasible: RealSystem,
     first: str = "L_O",
+    least: Least | None = None,
     evident: tuple[SingularityType, ...] = (),
 ) -> Ranked:
     """The generic ranks on a ground off its exclusions, and the loci of lower rank that matter for the types.
 
     Matrix by matrix, each taken apart anew with what is solved for put in, and with the loci of those before
     known not to vanish.  first: `L_O` or `L_I`; where it has full rank, there is neither IIM nor RPM.
-    evident: the types whose strata are known.
+    least: what is known of the ranks; evident: the types whose strata are known.
 
     >>> from singsym.polynomials import Ring
     >>> R = Ring(("x", "y"))
@@ -301,19 +317,33 @@ def ranked(
     >>> parts = {name: row.select(columns=c) for name, c in (("L_I", [0]), ("L_O", [1]), ("L_p", []))}
     >>> plane = Ground(Patch(R, {}, ()), ((1.0, 2.0),))
     >>> ranked(RankProblem({"L": row, **parts}, 0, 1, 1), plane, RealSystem(R, ())).loci
-    ((y,), (x,))
+    {(y,): {'L_O': 1}, (x,): {'L_I': 1}}
     """
     other = {"L_O": "L_I", "L_I": "L_O"}[first]
     defect = {"L": 0, "L_p": 0}
-    loci: dict[tuple[Polynomial, ...], None] = {}
+    known = dict.fromkeys(_BELOW, 0) | dict(least or {})
+    loci: dict[tuple[Polynomial, ...], dict[str, int]] = {}
 
     def examine(name: str) -> None:
         certifier = ground.certifier(feasible, loci)
         parts = rank_blocks(problem.matrices[name].map(ground.patch.restrict), certifier)
-        found = [block_rank(block, ground, certifier) for block in parts.blocks]
-        defect[name] = problem.defect(name, parts.constant + sum(block.rank for block in found))
-        for block in found:
-            loci.update(dict.fromkeys(union_of_loci(block.minors, certifier)))
+        full = problem.full(name) - parts.constant
+        starts = [numerical_minor(block, ground.samples) for block in parts.blocks]
+        highest = sum(min(block.shape) for block in parts.blocks)
+        known[name] = max(full - highest, *(known[other] for other in _BELOW[name]))
+        largest = sum(len(rows) for rows, _ in starts) == full - known[name]
+        found = [
+            block_rank(block, ground, certifier, start, largest)
+            for block, start in zip(parts.blocks, starts, strict=True)
+        ]
+        defect[name] = full - sum(block.rank for block in found)
+        for block, whole in zip(found, parts.blocks, strict=True):
+            lower = full - (highest - min(whole.shape) + block.rank - 1)
+            alternatives, exact = union_of_loci(block.minors, certifier)
+            for locus in alternatives:
+                there = loci.setdefault(locus, {})
+                if block.exact and exact and lower > 0:
+                    there[name] = max(lower, there.get(name, 0))
 
     examine(first)
     if defect[first]:
@@ -322,20 +352,23 @@ def ranked(
     if not defect["L"] and not defect["L_p"]:
         possible = (_OWN[first], _BOTH) if defect[first] else (SingularityType(0), _OWN[other])
         if set(possible) <= set(evident):
-            return Ranked(None, tuple(loci))
-    known = len(loci)
+            return Ranked(None, loci)
+    before = dict(loci)
     examine(other)
     defects = Defects(defect["L"], defect["L_p"], defect["L_I"], defect["L_O"])
     if other not in relevant(defects):
-        loci = dict.fromkeys(tuple(loci)[:known])
+        loci = before
     found = Stratum(ground.equations, defects, tuple(loci), ground.component)
-    return Ranked(None if defects.types in evident else found, tuple(loci))
+    return Ranked(None if defects.types in evident else found, loci)
 
 
-def union_of_loci(minors: tuple[Polynomial, ...], certifier: Certifier) -> tuple[tuple[Polynomial, ...], ...]:
+def union_of_loci(
+    minors: tuple[Polynomial, ...], certifier: Certifier
+) -> tuple[tuple[tuple[Polynomial, ...], ...], bool]:
     """Common zeros of factors, not proved nonzero, whose union holds the common zeros of the minors.
 
-    Minors with few factors come first; where the choices are too many, the last are left out.
+    Minors with few factors come first; where the choices are too many, the last are left out, and the union
+    may be larger: the second value is False then.
     """
     products = []
     for minor in minors:
@@ -343,17 +376,17 @@ def union_of_loci(minors: tuple[Polynomial, ...], certifier: Certifier) -> tuple
         if parts.vanishes:
             continue
         if not parts.factors:
-            return ()
+            return (), True
         products.append(parts.polynomials)
     if not products:
-        return ()
+        return (), True
     products.sort(key=lambda factors: (len(factors), sum(len(p) for p in factors)))
-    found = alternatives(tuple(products), certifier)
+    found, count = alternatives(tuple(products), certifier), len(products)
     while found is None:
         # fewer equations hold on a larger set: still all of the locus
         products = products[: len(products) * 2 // 3]
         found = alternatives(tuple(products), certifier)
-    return found
+    return found, len(products) == count
 
 
 def pivots(matrix: list[list[float]]) -> tuple[tuple[int, ...], tuple[int, ...]]:

@@ -6,6 +6,7 @@ Source: the Executor interface of Python's `concurrent.futures` (PEP 3148), whic
 from __future__ import annotations
 
 import dataclasses
+import enum
 import hashlib
 import multiprocessing
 import os
@@ -56,6 +57,8 @@ def fingerprint(value: Any) -> str:
         return f"<{value}>"
     if isinstance(value, Ring):
         return f"{value.names}{value.order}{value.constants}"
+    if isinstance(value, enum.Enum):
+        return f"{type(value).__qualname__}({value.value})"
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
         parts = (fingerprint(getattr(value, f.name)) for f in dataclasses.fields(value) if f.compare)
         return f"{type(value).__qualname__}({','.join(parts)})"

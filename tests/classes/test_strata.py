@@ -7,10 +7,22 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from singsym.classes.strata import Ground, RankProblem, block_rank, pivots, relevant, stratum
-from singsym.classes.types import Defects, feasible_defects
+from singsym.classes.explore import numerical_points
+from singsym.classes.patches import Patch
+from singsym.classes.strata import (
+    BlockRank,
+    Ground,
+    NotEvident,
+    RankProblem,
+    block_rank,
+    pivots,
+    ranked,
+    relevant,
+)
+from singsym.classes.types import Defects, SingularityType, feasible_defects
 from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
 from singsym.varieties.decomposition import decompose
+from singsym.varieties.real.witness import RealSystem
 
 R = Ring(("x", "y"))
 x, y = R.gens
@@ -18,27 +30,32 @@ x, y = R.gens
 
 def ground(*equations: Polynomial) -> Ground:
     (component,) = decompose(equations, ring=R)
-    return Ground(component)
+    everywhere = RealSystem(R, ())
+    return Ground(Patch(R, {}, component.generators), numerical_points(everywhere, equations), component)
+
+
+def rank(matrix: PolynomialMatrix, where: Ground) -> BlockRank:
+    return block_rank(matrix, where, where.certifier(RealSystem(R, ()), ()))
 
 
 def test_rank_of_a_matrix_on_the_plane_and_on_a_line() -> None:
     """diag(x, y): rank 2 off xy = 0; on y = 0 rank 1 off x = 0."""
     matrix = PolynomialMatrix.of(R, [[x, 0], [0, y]])
-    assert block_rank(matrix, ground()).rank == 2
-    assert block_rank(matrix, ground()).minors == (x * y,)
-    assert block_rank(matrix, ground(y)).rank == 1
-    assert block_rank(matrix, ground(y)).minors == (x,)
+    assert rank(matrix, ground()).rank == 2
+    assert rank(matrix, ground()).minors == (x * y,)
+    assert rank(matrix, ground(y)).rank == 1
+    assert rank(matrix, ground(y)).minors == (x,)
 
 
 def test_rank_that_never_drops_needs_no_minors() -> None:
     matrix = PolynomialMatrix.of(R, [[1, x], [y, 0]])
-    assert block_rank(matrix, ground(x)).minors == ()
-    assert block_rank(PolynomialMatrix.of(R, [[0, 0]]), ground()).rank == 0
+    assert rank(matrix, ground(x)).minors == ()
+    assert rank(PolynomialMatrix.of(R, [[0, 0]]), ground()).rank == 0
 
 
 def test_rank_on_a_reducible_set_that_is_not_known_to_be_prime() -> None:
     """On x y = 0, taken whole, the matrix (x) vanishes on one of two lines: its rank is 1 off that line."""
-    found = block_rank(PolynomialMatrix.of(R, [[x]]), ground(x**2 - 2 * y**2))
+    found = rank(PolynomialMatrix.of(R, [[x]]), ground(x**2 - 2 * y**2))
     assert (found.rank, found.minors) == (1, (x,))
 
 
@@ -47,29 +64,46 @@ def test_rank_on_a_reducible_set_that_is_not_known_to_be_prime() -> None:
 def test_pivots_have_numpys_rank(rows: list[list[int]]) -> None:
     matrix = [[float(e) for e in row] for row in rows]
     chosen = pivots(matrix)
-    rank = np.linalg.matrix_rank(np.array(matrix))
-    assert len(chosen[0]) == len(chosen[1]) == rank
-    if rank:
+    expected = np.linalg.matrix_rank(np.array(matrix))
+    assert len(chosen[0]) == len(chosen[1]) == expected
+    if expected:
         assert abs(np.linalg.det(np.array(matrix)[np.ix_(*chosen)])) > 1e-9
 
 
-def test_defects_sum_blocks_and_constants() -> None:
-    """N = 2, n = 1: L has a unit and the row (x y), L_I the row (x), L_O (y), L_p nothing."""
-    row = PolynomialMatrix.of(R, [[x, y]])
-    problem = RankProblem(
-        {},
-        0,
-        {"L": (row,), "L_I": (row.select(columns=[0]),), "L_O": (row.select(columns=[1]),), "L_p": ()},
-        {"L": 1, "L_I": 1, "L_O": 1, "L_p": 1},
-        2,
-        1,
-    )
-    plane = stratum(problem, ground())
-    assert plane.defects == Defects(0, 0, 0, 0)
-    assert plane.loci == {"L_I": ((x,),), "L_O": ((y,),)}
-    line = stratum(problem, ground(x))
-    assert line.defects == Defects(0, 0, 1, 0)
-    assert line.degenerate == ((y,),)
+def row_problem() -> RankProblem:
+    """N = 2, n = 1: L is a unit and the row (x y), L_I the row (x), L_O (y), L_p nothing."""
+    unit = PolynomialMatrix.of(R, [[1, 0, 0], [0, x, y]])
+    columns = {"L": [0, 1, 2], "L_I": [0, 1], "L_O": [0, 2], "L_p": [0]}
+    return RankProblem({name: unit.select(columns=c) for name, c in columns.items()}, 0, 2, 1)
+
+
+def test_ranks_on_the_plane_and_on_a_line() -> None:
+    """Off the axes nothing is singular; L_O is where y = 0, and at the origin both are and so is L."""
+    plane = ranked(row_problem(), ground(), RealSystem(R, ()))
+    assert plane.stratum is not None
+    assert plane.stratum.defects == Defects(0, 0, 0, 0)
+    assert set(plane.loci) == {(x,), (y,)}
+    line = ranked(row_problem(), ground(y), RealSystem(R, ()))
+    assert line.stratum is not None
+    assert line.stratum.defects == Defects(0, 0, 0, 1)
+    assert line.loci == {(x,): {"L": 1}}
+    origin = ranked(row_problem(), ground(x, y), RealSystem(R, ()))
+    assert origin.stratum is not None
+    assert (origin.stratum.defects, origin.loci) == (Defects(1, 0, 1, 1), {})
+
+
+def test_what_is_known_is_not_written_again() -> None:
+    """With full rank of L and L_p no stratum where its types are among those known."""
+    known = (SingularityType(0), SingularityType.RO | SingularityType.II)
+    assert ranked(row_problem(), ground(), RealSystem(R, ()), evident=known).stratum is None
+
+
+def test_a_minor_that_only_seems_to_vanish_is_not_evident() -> None:
+    """On the patch x^2 - 2 y^2 = 0, not taken apart, (x - sqrt 2 y) (x + sqrt 2 y) is zero, not by itself."""
+    patch = Patch(R, {}, (x**2 - 2 * y**2,))
+    where = Ground(patch, ((2**0.5, 1.0),))
+    with pytest.raises(NotEvident):
+        rank(PolynomialMatrix.of(R, [[x**4 - 4 * y**4]]), where)
 
 
 @pytest.mark.parametrize("n", [1, 2, 3])
