@@ -17,6 +17,7 @@ from singsym.classes.realise import Counted, CurveTask, Names, RealTask, count, 
 from singsym.classes.result import Classification, ClassResult, Locus, Piece, SpacePiece
 from singsym.classes.steps import excluded_in, found_in
 from singsym.classes.strata import RankProblem, Stratum
+from singsym.classes.symmetry import reflections
 from singsym.classes.types import Defects, SingularityClass, SingularityType, feasible_classes
 from singsym.classes.work import Cache, Runner, cache_folder, processes
 from singsym.elimination import engines
@@ -125,10 +126,12 @@ class _Work:
         return RankProblem(matrices, self.conditions.reduction.constant, self.equation.N, self.equation.n)
 
     def classification(self, started: float) -> Classification:
+        problem = self.problem()
         root = Branch(
-            self.problem(),
+            problem,
             self.feasible,
             self.equation.space.equations,
+            symmetries=reflections(self.feasible, self.equation.space.equations, problem.matrices.values()),
             seconds=self.limits.seconds,
             memory_mb=self.limits.memory_mb,
         )
@@ -137,7 +140,8 @@ class _Work:
             RealTask(found, self.feasible, self.names, self.limits.seconds, self.limits.memory_mb)
             for found in explored.found
         ]
-        pieces = self.runner.map(realise, tasks, "real points")
+        realised = self.runner.map(realise, tasks, "real points")
+        pieces = [piece for found in realised for piece in found.pieces]
         loci = self._loci(explored, pieces)
         classes = self._classes(explored, pieces, loci)
         return Classification(
@@ -170,7 +174,8 @@ class _Work:
         if self.equation.n == 1:
             whole = self.runner.map(realise, [self._whole(f) for _, f in factors], "loci")
             return tuple(
-                self._finite_locus(label, f, piece) for (label, f), piece in zip(factors, whole, strict=True)
+                self._finite_locus(label, f, found.pieces[0])
+                for (label, f), found in zip(factors, whole, strict=True)
             )
         loci = [self._locus(label, factor, explored, pieces) for label, factor in factors]
         curves = [i for i, locus in enumerate(loci) if locus.dimension == 1]

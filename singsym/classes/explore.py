@@ -12,6 +12,7 @@ from functools import cached_property
 
 from singsym.classes.patches import Patch, patches
 from singsym.classes.strata import Ground, Least, NotEvident, RankProblem, Samples, Stratum, ranked
+from singsym.classes.symmetry import IDENTITY, Reflection, compose, keeps, representatives
 from singsym.classes.types import Defects, SingularityType
 from singsym.classes.work import Runner
 from singsym.elimination.budget import Budget, Undecided
@@ -38,6 +39,8 @@ class Branch:
     away: loci that other branches search, left out here.
     feasible: the exclusions and inequalities of the feasible set Omega (its equations are not used).
     first, least, evident: see `strata.ranked`.
+    symmetries: reflections that keep the whole problem; images: those under which this part stands for
+        other parts, which are not searched.
     seconds, memory_mb: the budget of the decomposition.
     """
 
@@ -49,8 +52,16 @@ class Branch:
     first: str = "L_O"
     least: tuple[tuple[str, int], ...] = ()
     evident: tuple[SingularityType, ...] = ()
+    symmetries: tuple[Reflection, ...] = (IDENTITY,)
+    images: tuple[Reflection, ...] = (IDENTITY,)
     seconds: float | None = None
     memory_mb: int | None = None
+
+    @cached_property
+    def kept(self) -> tuple[Reflection, ...]:
+        """The symmetries of this part."""
+        sets = (self.equations, *self.away)
+        return tuple(r for r in self.symmetries if all(keeps(r, equations) for equations in sets))
 
     @cached_property
     def admitted(self) -> RealSystem:
@@ -69,10 +80,19 @@ class Branch:
 
 
 @dataclass(frozen=True)
+class Found:
+    """A stratum, the path that led to it, and the reflections under which it stands for other strata."""
+
+    path: Equations
+    stratum: Stratum
+    images: tuple[Reflection, ...] = (IDENTITY,)
+
+
+@dataclass(frozen=True)
 class Explored:
     """The strata of a branch, the parts of it left to search, and the reasons where there are none yet."""
 
-    strata: tuple[Stratum, ...] = ()
+    found: tuple[Found, ...] = ()
     following: tuple[Branch, ...] = ()
     undecided: tuple[str, ...] = ()
 
@@ -80,14 +100,6 @@ class Explored:
     def provisional(self) -> bool:
         """Whether a larger budget could say more."""
         return bool(self.undecided)
-
-
-@dataclass(frozen=True)
-class Found:
-    """A stratum and the path that led to it."""
-
-    path: Equations
-    stratum: Stratum
 
 
 @dataclass(frozen=True)
@@ -116,11 +128,12 @@ def explore(branch: Branch) -> Explored:
     work = _Exploring(branch)
     try:
         with Budget(branch.seconds, branch.memory_mb):
-            for patch in patches(branch.equations, _nonzero(branch.admitted), branch.feasible.ring):
-                work.patch(patch)
+            parts = patches(branch.equations, _nonzero(branch.admitted), branch.feasible.ring)
+            for k, images in representatives([p.generators for p in parts], branch.kept):
+                work.patch(parts[k], images)
     except Undecided as reason:
         work.undecided.append(str(reason))
-    return Explored(tuple(work.strata), tuple(work.following), tuple(work.undecided))
+    return Explored(tuple(work.found), tuple(work.following), tuple(work.undecided))
 
 
 def _nonzero(system: RealSystem) -> list[Polynomial]:
@@ -132,11 +145,11 @@ class _Exploring:
     """A branch at work."""
 
     branch: Branch
-    strata: list[Stratum] = field(default_factory=list)
+    found: list[Found] = field(default_factory=list)
     following: list[Branch] = field(default_factory=list)
     undecided: list[str] = field(default_factory=list)
 
-    def patch(self, patch: Patch) -> None:
+    def patch(self, patch: Patch, images: tuple[Reflection, ...]) -> None:
         """The ranks on a patch as it stands; where that is not evident, on its components."""
         admitted = self.branch.admitted
         if any(all(patch.restrict(g).is_zero for g in group) for group in admitted.exclusions):
@@ -144,27 +157,30 @@ class _Exploring:
         found = numerical_points(admitted, patch.generators)
         if found:
             try:
-                self._ranked(Ground(patch, found))
+                self._ranked(Ground(patch, found), images)
                 return
             except NotEvident:
                 pass
         for component in decompose(patch.generators, _nonzero(admitted), ring=admitted.ring):
             samples = _samples(component, admitted)
             if samples is not None:
-                self._ranked(Ground(patch, samples, component))
+                self._ranked(Ground(patch, samples, component), images)
 
-    def _ranked(self, ground: Ground) -> None:
+    def _ranked(self, ground: Ground, images: tuple[Reflection, ...]) -> None:
         branch = self.branch
+        all_images = tuple(dict.fromkeys(compose(r, other) for r in branch.images for other in images))
+        part = replace(branch, images=all_images)
         found = ranked(
             branch.problem, ground, branch.admitted, branch.first, dict(branch.least), branch.evident
         )
         if found.stratum is not None:
-            self.strata.append(replace(found.stratum, loci=(*branch.away, *found.stratum.loci)))
+            stratum = replace(found.stratum, loci=(*branch.away, *found.stratum.loci))
+            self.found.append(Found(branch.path, stratum, all_images))
         taken: tuple[Equations, ...] = ()
         for whole, least in found.loci.items():
             for locus in split_product(whole):
                 if not any(set(known) <= set(locus) for known in taken):
-                    self.following.append(branch.within(locus, taken, ground.equations, least))
+                    self.following.append(part.within(locus, taken, ground.equations, least))
                     taken = (*taken, locus)
 
 
@@ -252,7 +268,7 @@ def search(
                 unexplored.append((branch, f"the budget of {whole.seconds:g} s for the search is used up"))
                 continue
             unexplored += [(branch, reason) for reason in explored.undecided]
-            found += [Found(branch.path, stratum) for stratum in explored.strata]
+            found += explored.found
             following += explored.following
         frontier = following
     return Exploration(tuple(found), tuple(unexplored), evident)

@@ -6,13 +6,15 @@ Hauenstein, Sottile, ACM Trans. Math. Softw. 38 (2012) 28.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from flint import arb
 
 from singsym.classes.explore import Found
 from singsym.classes.result import Configuration, Equations, Piece
+from singsym.classes.strata import Stratum
+from singsym.classes.symmetry import image
 from singsym.elimination.budget import Budget, Undecided
 from singsym.elimination.verdict import Verdict
 from singsym.kinematics.placement import Coordinates, JointValue
@@ -72,8 +74,23 @@ class Counted:
         return self.components is None
 
 
-def realise(task: RealTask) -> Piece:
-    """The real side of one stratum: the task that workers run."""
+@dataclass(frozen=True)
+class Realised:
+    """What a stratum and its images come to: a piece each."""
+
+    pieces: tuple[Piece, ...]
+
+    @property
+    def provisional(self) -> bool:
+        """Whether a larger budget could say more."""
+        return any(piece.verdict.is_undecided for piece in self.pieces)
+
+
+Points = tuple[RealPoint | BoxPoint, ...]
+
+
+def realise(task: RealTask) -> Realised:
+    """The real side of one stratum and of its images: the task that workers run."""
     stratum = task.found.stratum
     piece = Piece(
         task.found.path,
@@ -84,56 +101,82 @@ def realise(task: RealTask) -> Piece:
     )
     exclusions = (*task.feasible.exclusions, *stratum.loci)
     system = replace(task.feasible, equations=stratum.equations, exclusions=exclusions)
+    points: Points = ()
     try:
         with Budget(task.seconds, task.memory_mb):
-            if stratum.component is None:
-                return _given(piece, system, task.names, stratum.elsewhere)
-            if stratum.component.dimension == 0:
-                return _finite(piece, real_points(stratum.equations), system, task.names)
-            return _positive(piece, component_dimension(stratum.component, system), task.names)
+            piece, points = _realised(piece, system, stratum)
     except Undecided as reason:
-        return replace(piece, verdict=Verdict.undecided(str(reason)))
+        piece = replace(piece, verdict=Verdict.undecided(str(reason)))
+    return Realised(tuple(_images(piece, points, task)))
 
 
-def _given(piece: Piece, system: RealSystem, names: Names, elsewhere: tuple[Equations, ...]) -> Piece:
+def _realised(piece: Piece, system: RealSystem, stratum: Stratum) -> tuple[Piece, Points]:
+    component = stratum.component
+    if component is None:
+        return _given(piece, system, stratum.elsewhere)
+    if component.dimension == 0:
+        return _finite(piece, real_points(stratum.equations), system)
+    return _positive(piece, component_dimension(component, system))
+
+
+def _images(piece: Piece, points: Points, task: RealTask) -> Iterator[Piece]:
+    """The piece with its configurations for each image; a point that an earlier image has is left out."""
+    seen: list[RealPoint] = []
+    for reflection in task.found.images:
+        own = []
+        for point in (p.reflect(reflection) for p in points):
+            if piece.points is not None and isinstance(point, RealPoint):
+                if any(point.coincides(other) for other in seen):
+                    continue
+                seen.append(point)
+            own.append(point)
+        if piece.points and not own:
+            continue
+        shown = replace(
+            piece,
+            path=image(piece.path, reflection),
+            basis=image(piece.basis, reflection),
+            exclusions=tuple(image(group, reflection) for group in piece.exclusions),
+            witnesses=tuple(configuration(p, task.names) for p in own),
+        )
+        yield replace(shown, points=len(own), components=len(own)) if piece.points else shown
+
+
+def _given(piece: Piece, system: RealSystem, elsewhere: tuple[Equations, ...]) -> tuple[Piece, Points]:
     """A set given by equations: where their gradients are independent at a point, a manifold near it."""
     dimension = len(system.ring.names) - len(system.closed_equations)
     if dimension <= 0:
         try:
             solutions = [p for p in real_points(piece.basis) if not _lies_in(p, elsewhere)]
-            return _finite(piece, solutions, system, names)
+            return _finite(piece, solutions, system)
         except NotZeroDimensional:
-            return _positive(piece, real_dimension(system), names)
+            return _positive(piece, real_dimension(system))
     witness = find_witness(system, dimension=dimension, tries=SEARCHES)
     if witness is not None and independent(system.closed_equations, witness.point):
-        return _positive(piece, (dimension, witness), names)
-    return _positive(piece, real_dimension(system), names)
+        return _positive(piece, (dimension, witness))
+    return _positive(piece, real_dimension(system))
 
 
 def _lies_in(point: RealPoint, loci: tuple[Equations, ...]) -> bool:
     return any(all(point.sign(p) == 0 for p in locus) for locus in loci)
 
 
-def _finite(piece: Piece, solutions: Sequence[RealPoint], system: RealSystem, names: Names) -> Piece:
-    points = [p for p in solutions if system.admits(p)]
+def _finite(piece: Piece, solutions: Sequence[RealPoint], system: RealSystem) -> tuple[Piece, Points]:
+    points = tuple(p for p in solutions if system.admits(p))
     if not points:
         verdict = Verdict.no(reason="none of finitely many complex solutions is real and feasible")
-        return replace(piece, verdict=verdict, dimension=-1, points=0)
-    shown = tuple(configuration(p, names) for p in points)
-    return replace(
-        piece, verdict=Verdict.yes(), dimension=0, points=len(points), components=len(points), witnesses=shown
-    )
+        return replace(piece, verdict=verdict, dimension=-1, points=0), ()
+    count = len(points)
+    return replace(piece, verdict=Verdict.yes(), dimension=0, points=count, components=count), points
 
 
-def _positive(piece: Piece, found: tuple[int, Witness | None], names: Names) -> Piece:
+def _positive(piece: Piece, found: tuple[int, Witness | None]) -> tuple[Piece, Points]:
     dimension, witness = found
     if witness is None:
         verdict = Verdict.no(reason="the equations have no real and feasible solution")
-        return replace(piece, verdict=verdict, dimension=-1)
+        return replace(piece, verdict=verdict, dimension=-1), ()
     verdict = Verdict.yes("proven" if isinstance(witness.point, RealPoint) else "certified")
-    return replace(
-        piece, verdict=verdict, dimension=dimension, witnesses=(configuration(witness.point, names),)
-    )
+    return replace(piece, verdict=verdict, dimension=dimension), (witness.point,)
 
 
 def count(task: CurveTask) -> Counted:

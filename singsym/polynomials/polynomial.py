@@ -5,7 +5,7 @@ Source: FLINT (https://flintlib.org), through python-flint.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Union
 
@@ -232,6 +232,18 @@ class Polynomial:
             return cleared
         _, primitive = cleared.primitive()
         return -primitive if numerators[0] < 0 else primitive
+
+    def reflect(self, names: Collection[str]) -> Polynomial:
+        """The polynomial with the signs of these variables changed.
+
+        >>> from singsym.polynomials import Ring
+        >>> x, y = Ring(("x", "y")).gens
+        >>> (x + x * y).reflect(["x", "y"])
+        x*y - x
+        """
+        places = [self.ring.index(name) for name in names]
+        terms = {m: -c if sum(m[i] for i in places) % 2 else c for m, c in self.terms()}
+        return self.ring.from_dict(terms)
 
     def substitute(self, values: Mapping[str, Operand]) -> Polynomial:
         """Replace variables by polynomials or rationals of the same ring, all at once.

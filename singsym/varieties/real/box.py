@@ -5,8 +5,8 @@ Source: Krawczyk, Computing 4 (1969) 187-201.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -55,6 +55,12 @@ class BoxPoint:
         with at_precision(self.bits + 64):
             widths = [self.radius_bound if n in self.unknowns else Fraction(0) for n in self.ring.names]
             return tuple(ball(m) + arb(0, ball(w).upper()) for m, w in zip(self.middles, widths, strict=True))
+
+    def reflect(self, names: Collection[str]) -> BoxPoint:
+        """The point with the signs of these coordinates changed, a solution of the equations so changed."""
+        equations = tuple(p.reflect(names) for p in self.equations)
+        pairs = zip(self.ring.names, self.middles, strict=True)
+        return replace(self, equations=equations, middles=tuple(-m if n in names else m for n, m in pairs))
 
     def refine(self, bits: int) -> BoxPoint:
         """The same point in a box of radius 2^-bits; raises `Undecided` where it cannot be had."""

@@ -5,8 +5,8 @@ Source: Rouillier (1999), see parametrization.py; roots as in roots.py.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -50,6 +50,14 @@ class RealPoint:
     def box(self) -> tuple[arb, ...]:
         """Balls that hold the coordinates, in the order of the ring's names."""
         return _coordinates(self, self.bits)
+
+    def reflect(self, names: Collection[str]) -> RealPoint:
+        """The point with the signs of these coordinates changed."""
+        changed = tuple(
+            tuple(-c for c in numerator) if name in names else numerator
+            for name, numerator in zip(self.ring.names, self.numerators, strict=True)
+        )
+        return replace(self, numerators=changed)
 
     def refine(self, bits: int) -> RealPoint:
         """The same point with boxes of relative radius below 2^-bits."""
