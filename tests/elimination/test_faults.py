@@ -325,7 +325,12 @@ def test_children_end_with_their_parent(name: str, ending: signal.Signals) -> No
     if ending == signal.SIGKILL and not sys.platform.startswith("linux"):
         pytest.skip("only Linux kills the children of a killed parent")
     parent = subprocess.Popen(
-        [sys.executable, "-c", WORK, name], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        [sys.executable, "-c", WORK, name],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        # a test run in the background of a shell ignores Ctrl-C, and so would its children
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
     )
     try:
         assert parent.stdout is not None

@@ -14,7 +14,7 @@ from singsym.polynomials import Polynomial
 from singsym.varieties.decomposition import Component, decompose
 from singsym.varieties.real.box import BoxPoint
 from singsym.varieties.real.critical import regular_samples
-from singsym.varieties.real.emptiness import border_polynomials, is_empty_over_reals
+from singsym.varieties.real.emptiness import border_polynomials, is_empty_over_reals, is_excluded
 from singsym.varieties.real.intervals import at_precision, evaluate, jacobian, rank_at_least
 from singsym.varieties.real.points import RealPoint
 from singsym.varieties.real.witness import RealSystem, Witness, find_witness
@@ -91,7 +91,8 @@ def real_dimension(
 
 def _real_dimension(system: RealSystem, budget: Budget, seed: int) -> tuple[int, Witness | None]:
     best: tuple[int, Witness | None] = (-1, None)
-    components = decompose(system.closed_equations, system.positive, ring=system.ring, budget=budget)
+    nonzero = [*system.positive, *(g[0] for g in system.exclusions if len(g) == 1)]
+    components = decompose(system.closed_equations, nonzero, ring=system.ring, budget=budget)
     for component in sorted(components, key=lambda c: -c.dimension):
         if component.dimension <= best[0]:
             continue
@@ -113,6 +114,8 @@ def component_dimension(
     1
     """
     budget = current(budget)
+    if is_excluded(component, system):
+        return -1, None
     piece = replace(system, equations=component.generators)
     if component.dimension == 0:
         return _zero_or_empty(piece, budget, seed)

@@ -60,7 +60,7 @@ def _decided(system: RealSystem, budget: Budget, seed: int, tries: int) -> Verdi
         )
     nonzero = [*system.positive, *(g[0] for g in system.exclusions if len(g) == 1)]
     components = decompose([*equations, *forced], nonzero, ring=system.ring, budget=budget)
-    components = tuple(c for c in components if not _excluded(c, system))
+    components = tuple(c for c in components if not is_excluded(c, system))
     if not components:
         return Verdict.yes(reason="there is no complex solution")
     reasons, doubts = [], []
@@ -78,7 +78,8 @@ def _decided(system: RealSystem, budget: Budget, seed: int, tries: int) -> Verdi
     return Verdict.yes(reason="; ".join(dict.fromkeys(reasons)))
 
 
-def _excluded(component: Component, system: RealSystem) -> bool:
+def is_excluded(component: Component, system: RealSystem) -> bool:
+    """Whether all polynomials of one of the exclusions vanish on a component."""
     return any(all(component.vanishes(g) for g in group) for group in system.exclusions)
 
 
