@@ -6,7 +6,7 @@ det L_I or of det L_O (the Proposition of section 2.3), so the search starts wit
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -15,10 +15,10 @@ from singsym.classes.strata import Ground, Least, NotEvident, RankProblem, Sampl
 from singsym.classes.symmetry import IDENTITY, Reflection, compose, keeps, representatives
 from singsym.classes.types import Defects, SingularityType
 from singsym.classes.work import Runner
-from singsym.elimination.budget import Budget, Undecided
+from singsym.elimination.budget import Budget, Undecided, current
 from singsym.polynomials import Polynomial
 from singsym.varieties.decomposition import Component, decompose
-from singsym.varieties.real.emptiness import is_empty_over_reals
+from singsym.varieties.real.emptiness import complex_emptiness, is_empty_over_reals
 from singsym.varieties.real.witness import RealSystem
 from singsym.varieties.real.zerodim import real_points
 
@@ -26,6 +26,8 @@ _T = SingularityType
 _SIMPLE = (_T(0), _T.RI | _T.IO, _T.RO | _T.II)
 """The types of strata that are known where (4) and (5) are."""
 Equations = tuple[Polynomial, ...]
+EMPTINESS_SECONDS = 10.0
+"""So long a proof is waited for that a part has no zero at all."""
 STARTS = 60
 """Random starts for numerical points of a set."""
 
@@ -128,6 +130,10 @@ def explore(branch: Branch) -> Explored:
     work = _Exploring(branch)
     try:
         with Budget(branch.seconds, branch.memory_mb):
+            left = _left(branch.admitted.exclusions, branch.equations)
+            whole = replace(branch.admitted, equations=branch.equations, exclusions=left)
+            if not numerical_points(whole, branch.equations, 1) and _is_empty(whole):
+                return Explored()
             parts = patches(branch.equations, _nonzero(branch.admitted), branch.feasible.ring)
             for k, images in representatives([p.generators for p in parts], branch.kept):
                 work.patch(parts[k], images)
@@ -152,7 +158,9 @@ class _Exploring:
     def patch(self, patch: Patch, images: tuple[Reflection, ...]) -> None:
         """The ranks on a patch as it stands; where that is not evident, on its components."""
         admitted = self.branch.admitted
-        if any(all(patch.restrict(g).is_zero for g in group) for group in admitted.exclusions):
+        restricted = [tuple(map(patch.restrict, group)) for group in admitted.exclusions]
+        admitted = replace(admitted, exclusions=_left(restricted, patch.rest))
+        if () in admitted.exclusions:
             return
         found = numerical_points(admitted, patch.generators)
         if found:
@@ -161,6 +169,8 @@ class _Exploring:
                 return
             except NotEvident:
                 pass
+        elif _is_empty(replace(admitted, equations=patch.rest)):
+            return
         for component in decompose(patch.generators, _nonzero(admitted), ring=admitted.ring):
             samples = _samples(component, admitted)
             if samples is not None:
@@ -182,6 +192,21 @@ class _Exploring:
                 if not any(set(known) <= set(locus) for known in taken):
                     self.following.append(part.within(locus, taken, ground.equations, least))
                     taken = (*taken, locus)
+
+
+def _left(exclusions: Iterable[Equations], equations: Equations) -> tuple[Equations, ...]:
+    """The exclusions without zeros and equations; an empty one where nothing is left."""
+    known = {p.primitive() for p in equations if p}
+    return tuple(tuple(g for g in group if g and g.primitive() not in known) for group in exclusions)
+
+
+def _is_empty(system: RealSystem) -> bool:
+    """Whether it is quickly proven that there is no zero, not even over the complex numbers.
+
+    Exclusions of several polynomials are left out: they would bring many variables.
+    """
+    single = tuple(group for group in system.exclusions if len(group) == 1)
+    return complex_emptiness(replace(system, exclusions=single), current().part(EMPTINESS_SECONDS)).is_yes
 
 
 def _samples(component: Component, feasible: RealSystem) -> Samples | None:

@@ -22,7 +22,7 @@ from singsym.kinematics.placement import ConfigurationSpace
 from singsym.minors.blocks import easy_columns
 from singsym.minors.determinant import determinant
 from singsym.minors.factored import factored
-from singsym.minors.rank import alternatives, rank_blocks
+from singsym.minors.rank import alternatives, simplest_blocks
 from singsym.polynomials import Polynomial, PolynomialMatrix
 from singsym.varieties.decomposition import Component
 from singsym.varieties.real.witness import RealSystem
@@ -45,6 +45,10 @@ class RankProblem:
     eliminated: int
     N: int
     n: int
+
+    def outputs(self, name: str) -> int:
+        """How many columns of a matrix, the first ones, are the output's."""
+        return self.n if name in ("L", "L_I") else 0
 
     def full(self, name: str) -> int:
         """The full rank of a reduced matrix: how far its rank is below is delta, p, k_I or k_O."""
@@ -326,7 +330,8 @@ def ranked(
 
     def examine(name: str) -> None:
         certifier = ground.certifier(feasible, loci)
-        parts = rank_blocks(problem.matrices[name].map(ground.patch.restrict), certifier)
+        matrix = problem.matrices[name].map(ground.patch.restrict)
+        parts = simplest_blocks(matrix, certifier, problem.outputs(name))
         full = problem.full(name) - parts.constant
         starts = [numerical_minor(block, ground.samples) for block in parts.blocks]
         highest = sum(min(block.shape) for block in parts.blocks)

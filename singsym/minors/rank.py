@@ -7,7 +7,7 @@ write them as equations.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain, combinations
 from math import comb, prod
@@ -16,7 +16,7 @@ from typing import Any
 from flint import fmpq, fmpq_mat, nmod_mat
 
 from singsym.kinematics.nonzero import Certifier
-from singsym.kinematics.reduction import Elimination, reduce_submatrix
+from singsym.kinematics.reduction import Elimination, eliminate, reduce_submatrix
 from singsym.minors.blocks import diagonal_blocks, sparser
 from singsym.minors.determinant import maximal_minors
 from singsym.minors.factored import factored
@@ -107,6 +107,12 @@ class RankBlocks:
     constant: int
     record: tuple[Elimination, ...]
 
+    @property
+    def size(self) -> tuple[int, int]:
+        """Rows and terms of the blocks."""
+        terms = sum(len(e) for block in self.blocks for row in block.rows for e in row)
+        return sum(block.shape[0] for block in self.blocks), terms
+
     def locus(self, rank: int) -> tuple[PolynomialMatrix, ...] | None:
         """The blocks of which at least one must lose rank (rows or columns) for the whole to be below `rank`.
 
@@ -117,6 +123,10 @@ class RankBlocks:
             if wanted == sum(block.shape[side] for block in self.blocks):
                 return self.blocks
         return None
+
+
+FEW_TERMS = 20
+"""Blocks with fewer terms are not tried to be made simpler."""
 
 
 def rank_blocks(matrix: PolynomialMatrix, certifier: Certifier) -> RankBlocks:
@@ -135,6 +145,26 @@ def rank_blocks(matrix: PolynomialMatrix, certifier: Certifier) -> RankBlocks:
     left = sparser(reduced.matrix.map(certifier.shorten))
     blocks = tuple(left.select(rows, columns) for rows, columns in diagonal_blocks(left))
     return RankBlocks(matrix.shape, blocks, reduced.constant, reduced.record)
+
+
+def simplest_blocks(matrix: PolynomialMatrix, certifier: Certifier, outputs: int) -> RankBlocks:
+    """The same by the simpler of two ways: any pivots, or those in the first `outputs` columns last.
+
+    Pivots in the output's columns are easy to find, as it is the twist of one link, but write all legs in
+    the coordinates of one of them.
+    """
+    found = rank_blocks(matrix, certifier)
+    if not outputs or found.size[1] < FEW_TERMS:
+        return found
+    joints = eliminate(matrix, range(outputs, matrix.width), certifier, thorough=True)
+    rest = rank_blocks(joints.matrix, certifier)
+    other = replace(
+        rest,
+        shape=matrix.shape,
+        constant=joints.constant + rest.constant,
+        record=(*joints.record, *rest.record),
+    )
+    return min(found, other, key=lambda f: f.size)
 
 
 @dataclass(frozen=True)

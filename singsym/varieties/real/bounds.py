@@ -59,6 +59,51 @@ def sign_within(polynomial: Polynomial, bounds: dict[str, Interval]) -> int:
     return int(value > 0) - int(value < 0)
 
 
+def extreme_values(polynomial: Polynomial, bounds: dict[str, Interval]) -> tuple[Polynomial, ...]:
+    """What vanishes with a polynomial that is zero within the bounds only where all its terms are extreme.
+
+    Lemma: a sum of terms has its largest value only where each term has; a monomial has its largest absolute
+    value, not zero, only where all its variables have.
+
+    >>> x, y = Ring(("x", "y")).gens
+    >>> one = (Fraction(-1), Fraction(1))
+    >>> extreme_values(x * y - 1, {"x": one, "y": one})
+    (x*y - 1, x^2 - 1, y^2 - 1)
+    """
+    if not set(polynomial.variables) <= set(bounds):
+        return ()
+    ring = polynomial.ring
+    terms = [(ring.from_dict({m: c}), *_term_range(ring.names, m, c, bounds)) for m, c in polynomial.terms()]
+    for side in (1, 2):
+        if sum((term[side] for term in terms), start=Fraction(0)):
+            continue
+        equations: list[Polynomial] = []
+        for term, *ends in terms:
+            value = ends[side - 1]
+            if not term.is_constant:
+                equations.append(term - _rational(value))
+            if value:
+                largest = {n: max(map(abs, bounds[n])) for n in term.variables}
+                equations += [ring.gen(n) ** 2 - _rational(end**2) for n, end in largest.items()]
+        return tuple(p for p in dict.fromkeys(equations) if p)
+    return ()
+
+
+def _term_range(
+    names: Sequence[str], exponents: Sequence[int], coefficient: fmpq, bounds: dict[str, Interval]
+) -> Interval:
+    """Bounds of a term that are exact where the bounds of its variables are symmetric about 0."""
+    low = high = _fraction(coefficient)
+    for name, e in zip(names, map(int, exponents), strict=True):
+        if e:
+            ends = sorted(end**e for end in bounds[name])
+            if e % 2 == 0 and bounds[name][0] < 0 < bounds[name][1]:
+                ends[0] = Fraction(0)
+            products = [a * b for a in (low, high) for b in ends]
+            low, high = min(products), max(products)
+    return low, high
+
+
 def _narrow(
     bounds: dict[str, Interval], weights: dict[str, Fraction], constant: Fraction, limit: Fraction
 ) -> None:
@@ -81,6 +126,10 @@ def _root_above(square: Fraction) -> Fraction:
     if isqrt(p) ** 2 == p and isqrt(q) ** 2 == q:
         return Fraction(isqrt(p), isqrt(q))
     return Fraction(isqrt(p * _FINENESS**2 // q) + 1, _FINENESS)
+
+
+def _rational(number: Fraction) -> fmpq:
+    return fmpq(number.numerator, number.denominator)
 
 
 def _fraction(number: fmpq) -> Fraction:

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from math import prod
+from math import comb, prod
 from random import Random
 
 from singsym.elimination.budget import Budget, Undecided, current
@@ -25,6 +25,8 @@ from singsym.varieties.real.points import RealPoint
 from singsym.varieties.real.zerodim import NotZeroDimensional, pinned, real_points
 
 _CENTRES = 3
+_MOST_MINORS = 2000
+_MOST_PRODUCTS = 10**12
 
 
 def sample_points(
@@ -137,7 +139,7 @@ def _regular_part(
     for chosen in _choices(component, equations, codimension):
         budget.check("real points on every component")
         matrix = PolynomialMatrix.of(ring, jacobian(chosen, ring.names))
-        found = [m for _, _, minor in minors(matrix, codimension) if (m := component.ideal.reduce(minor))]
+        found = [m for minor in _all_minors(matrix, codimension) if (m := component.ideal.reduce(minor))]
         if not found:
             continue
         singular = component.ideal + Ideal(ring, found)
@@ -225,6 +227,15 @@ def _critical_points(
     return _pinned([_dropped(p, ring) for p in points])
 
 
+def _all_minors(matrix: PolynomialMatrix, size: int) -> list[Polynomial]:
+    """All minors of a Jacobian matrix; raises `Undecided` where they are too many or too large."""
+    count = comb(matrix.shape[0], size) * comb(matrix.width, size)
+    lengths = sorted((sum(map(len, row)) for row in matrix.rows), reverse=True)
+    if count > _MOST_MINORS or prod(lengths[:size]) > _MOST_PRODUCTS:
+        raise Undecided(f"the {count} minors of size {size} of a Jacobian matrix are too many or too large")
+    return [minor for _, _, minor in minors(matrix, size)]
+
+
 def _critical_system(
     component: Component, local: Sequence[Polynomial], border: Polynomial, random: Random
 ) -> tuple[Polynomial, ...]:
@@ -239,7 +250,7 @@ def _critical_system(
         k = border.total_degree + 1
         direction = [2 * q * border.derivative(n) - k * border * q.derivative(n) for n in ring.names]
     rows = [*jacobian(local, ring.names), direction]
-    found = [m for _, _, m in minors(PolynomialMatrix.of(ring, rows), len(local) + 1)]
+    found = _all_minors(PolynomialMatrix.of(ring, rows), len(local) + 1)
     return (*component.generators, *map(component.ideal.reduce, found))
 
 

@@ -12,10 +12,11 @@ from dataclasses import replace
 from flint import fmpz_poly
 
 from singsym.elimination.budget import Budget, Undecided, current
+from singsym.elimination.ideal import Ideal
 from singsym.elimination.verdict import Verdict
 from singsym.polynomials import Polynomial
 from singsym.varieties.decomposition import Component, decompose
-from singsym.varieties.real.bounds import sign_within, solution_bounds
+from singsym.varieties.real.bounds import extreme_values, sign_within, solution_bounds
 from singsym.varieties.real.critical import component_samples
 from singsym.varieties.real.points import RealPoint
 from singsym.varieties.real.roots import has_real_root
@@ -47,6 +48,27 @@ def is_empty_over_reals(
     if verdict.is_yes and "modular" in seen:
         return replace(verdict, certainty="modular", engine="msolve")
     return verdict
+
+
+def complex_emptiness(system: RealSystem, budget: Budget | None = None) -> Verdict:
+    """Whether not even complex numbers solve the equations off the exclusions and off p = 0 for each p > 0.
+
+    Source: Rabinowitsch (1929), with variables of their own for each exclusion: some t1 g1 + t2 g2 + ... = 1.
+
+    >>> from singsym.polynomials import Ring
+    >>> R = Ring(("x", "y"))
+    >>> x, y = R.gens
+    >>> complex_emptiness(RealSystem(R, (x * y, x - 2), exclusions=((y, x - 2),))).answer
+    <Answer.YES: 'yes'>
+    """
+    groups = [*system.exclusions, *((p,) for p in system.positive)]
+    names = [f"inverse {i} {j}" for i, group in enumerate(groups) for j in range(len(group))]
+    wide = system.ring.with_names((*names, *system.ring.names))
+    inverse = iter(wide.gens)
+    equations = [wide.convert(f) for f in system.closed_equations]
+    for group in groups:
+        equations.append(sum((next(inverse) * wide.convert(g) for g in group), start=-wide.one))
+    return Ideal(wide, equations).unit_verdict(budget)
 
 
 def _decided(system: RealSystem, budget: Budget, seed: int, tries: int) -> Verdict:
@@ -126,7 +148,7 @@ def _from_points(points: Sequence[RealPoint], system: RealSystem, what: str) -> 
 
 
 def _real_consequences(system: RealSystem, equations: Sequence[Polynomial]) -> list[Polynomial] | None:
-    """What sums of squares among the equations force to vanish; `None` where one has a positive constant."""
+    """What sums of squares, or terms at their bounds, force to vanish; `None` for a sum with a constant."""
     forced: list[Polynomial] = []
     for f in _combinations(equations):
         squares = sum_of_squares(f)
@@ -137,7 +159,8 @@ def _real_consequences(system: RealSystem, equations: Sequence[Polynomial]) -> l
             return None
         if len(roots) > 1:
             forced.extend(roots)
-    return forced
+    bounds = solution_bounds(system.ring, equations) or {}
+    return [*forced, *(p for f in equations for p in extreme_values(f, bounds))]
 
 
 def _out_of_bounds(system: RealSystem, equations: Sequence[Polynomial]) -> bool:
