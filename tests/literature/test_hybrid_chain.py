@@ -1,7 +1,8 @@
 """Row 7 of the published results: the hybrid chain of Zlatanov, Fenton, Benhabib (1998), section 5, Table 2.
 
-The independent route: configurations placed by the paper's geometry, or sampled where loci of (4) and (5) meet,
-with the singular values of L.  Table 2 has 13 classes: here 1 to 7, 9, 13, 15, 16, 17 and 21.
+The independent route: configurations placed by the paper's geometry, or sampled where loci of
+(4) and (5) meet, with the singular values of L.  Table 2 has 13 classes: here 1 to 7, 9, 13, 15, 16,
+17 and 21.
 """
 
 from __future__ import annotations

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from matplotlib.colors import to_rgba
 
 from singsym.classes.classify import classify
 from singsym.classes.result import Classification
@@ -15,6 +16,7 @@ from singsym.output.plot import class_pictures, plot_class, plot_mechanism
 from singsym.output.plot_curves import Coordinate, plot_curves, smooth, trace_loci
 from singsym.output.plot_motion import drawn_motions, motions_at, restriction_text
 from singsym.output.plot_scene import Stage, openness
+from singsym.output.plot_style import INPUT, PAPER
 from singsym.output.plot_view import seen, viewpoint
 from singsym.output.strata_graph import plot_strata, strata_graph
 from singsym.polynomials import Ring
@@ -184,3 +186,12 @@ def test_files_and_configurations_that_are_not_there_are_refused(linkage: Classi
         plot_mechanism(load("fourbar"), {"Bx": 1})
     with pytest.raises(ValueError, match="configurations known"):
         plot_class(linkage, T.IIM | T.RPM)
+
+
+def test_an_input_is_seen_where_another_joint_lies_on_it() -> None:
+    """Sarrus, both legs folded: the input A1, in orange, is drawn after A3 at the same place."""
+    result = classify(load("sarrus"), cache=False)
+    found = result.of(T.RI | T.RO | T.RPM | T.IIM)
+    (axes,) = plot_class(result, found).figure.axes
+    fills = {p.get_facecolor(): p.get_zorder() for p in sorted(axes.patches, key=lambda p: p.get_zorder())}
+    assert fills[to_rgba(INPUT)] > fills[to_rgba(PAPER)]
