@@ -59,12 +59,9 @@ def rods_of_the_delta(q: Points) -> tuple[float, float]:
 def planes_of_legs(q: Points) -> tuple[float, float]:
     """Spherical 3-RRR: the planes B C have a line in common; axes A, B, C of a leg lie in a plane."""
     base = dict(zip(("A1", "A2", "A3"), np.eye(3), strict=True))
-    tip = {**q, **base, "C2": q["C1"]}
-    legs = [[tip[f"{axis}{i}"] for axis in "ABC"] for i in (1, 2, 3)]
-    factored = det(q["B1"], q["B2"], q["C1"]) * det(q["B3"], q["C3"], q["C1"])
-    whole = det(*(np.cross(b, c) for _, b, c in legs))
-    assert abs(whole) == pytest.approx(abs(factored))
-    return whole, float(np.prod([det(*leg) for leg in legs]))
+    axes = {**q, **base, "C3": np.cross(q["C1"], q["C2"])}
+    legs = [[axes[f"{axis}{i}"] for axis in "ABC"] for i in (1, 2, 3)]
+    return det(*(np.cross(b, c) for _, b, c in legs)), float(np.prod([det(*leg) for leg in legs]))
 
 
 @pytest.mark.parametrize(
@@ -107,16 +104,29 @@ def test_surfaces_that_meet_in_curves(classified: Classified, name: str) -> None
 
 
 def test_flat_legs_of_the_spherical_3rrr() -> None:
-    """IIM needs wrenches of flat legs in balance, each along the normal of its leg's plane; there are none.
+    """IIM needs moments of flat legs in balance, each along the normal of its leg's plane; there are none.
 
-    Legs 1 and 2 both flat: C is 60 + 90 or 60 - 90 degrees from A1 and from A2, which are perpendicular: the
-    squares of C's cosines would be 3/4 and 3/4.  Leg 3 and one of them in a plane: the arcs of the closed
-    way A1 B1 C1 C3 B3 A3 A1, to and fro, are never whole turns together.
+    Two legs in one plane: it holds their A and C, so that the third C is on the third A or against it; but
+    no leg closes at an angle of less than 90 - 60 degrees.  Three flat legs: each angle A C is 30 or 150
+    degrees, their cosines the diagonal of a rotation; for none of these are the normals A x C in a plane.
     """
-    assert 2 * np.cos(np.deg2rad(60 + 90)) ** 2 > 1
-    signs = product((1, -1), repeat=6)
-    ways = {sum(s * arc for s, arc in zip(sign, (60, 90, 90, 60, 60, 90), strict=True)) for sign in signs}
-    assert all(way % 360 for way in ways)
+    flat = np.cos(np.deg2rad(90 - 60))
+    volumes = []
+    for signs in product((1, -1), repeat=3):
+        diagonal = flat * np.array(signs)
+        cosine = (diagonal.sum() - 1) / 2
+        squares = (diagonal - cosine) / (1 - cosine)
+        if abs(cosine) > 1 or squares.min() < 0:
+            continue
+        for directions in product((1, -1), repeat=3):
+            axis, sine = np.sqrt(squares) * directions, np.sqrt(1 - cosine**2)
+            turned = [
+                cosine * a + sine * np.cross(axis, a) + (1 - cosine) * (axis @ a) * axis for a in np.eye(3)
+            ]
+            assert np.diag(turned) == pytest.approx(diagonal)
+            volumes.append(abs(det(*(np.cross(a, c) for a, c in zip(np.eye(3), turned, strict=True)))))
+    assert len(volumes) == 4 * 8
+    assert min(volumes) > 0.01
 
 
 def test_spherical_fourbar_by_triangles(classified: Classified) -> None:
