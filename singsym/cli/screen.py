@@ -47,8 +47,9 @@ def emit_page(page: Page) -> None:
         if isinstance(block, str):
             console.print(Text(block))
         else:
-            look = {"box": box.SIMPLE_HEAD, "show_edge": False, "pad_edge": False, "padding": (0, 1, 0, 0)}
-            table = Table(title=block.title or None, title_justify="left", **look)
+            table = Table(title=block.title or None, title_justify="left", box=box.SIMPLE_HEAD)
+            table.show_edge = table.pad_edge = False
+            table.padding = (0, 1, 0, 0)
             for place, header in enumerate(block.headers):
                 # what a row is called stays in one line, and nothing is cut off
                 table.add_column(Text(header), no_wrap=place == 0, overflow="fold")
