@@ -128,7 +128,7 @@ def _mechanism(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--formulation",
         default="auto",
-        choices=("auto", "planar", "joint", "natural", "quaternion"),
+        choices=("auto", "planar", "spherical", "joint", "natural", "quaternion"),
         help="the configuration variables (default: by kind of mechanism)",
     )
 
@@ -227,7 +227,12 @@ def _folder(command: argparse.ArgumentParser) -> None:
         "-o", "--output", default="gallery", metavar="DIR", help="folder to write to (default: %(default)s)"
     )
     command.add_argument(
-        "--only", nargs="+", default=[], metavar="NAME", help="these mechanisms and no others"
+        "--only",
+        nargs="+",
+        action="extend",
+        default=[],
+        metavar="NAME",
+        help="these mechanisms and no others",
     )
 
 

@@ -76,7 +76,8 @@ def _picture(result: Classification, shown: str) -> Picture:
         if found is None:
             raise ValueError(f"there is no class {number}: the classes are numbered from 1 to 21")
         if not found.witnesses:
-            raise ValueError(f"class {number} ({found.types}) has no configuration here: {found.verdict}")
+            fact = "does not occur" if found.verdict.is_no else "has no known configuration"
+            raise ValueError(f"class {number} ({found.types}) {fact}: {found.verdict.reason}")
         return plot_class(result, found)
     from singsym.output.plot_curves import plot_curves
 

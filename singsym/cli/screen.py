@@ -48,8 +48,11 @@ def emit_page(page: Page) -> None:
             console.print(Text(block))
         else:
             table = Table(title=block.title or None, title_justify="left", box=box.SIMPLE_HEAD)
-            for header in block.headers:
-                table.add_column(Text(header))
+            table.show_edge = table.pad_edge = False
+            table.padding = (0, 1, 0, 0)
+            for place, header in enumerate(block.headers):
+                # what a row is called stays in one line, and nothing is cut off
+                table.add_column(Text(header), no_wrap=place == 0, overflow="fold")
             for row in block.rows:
                 table.add_row(*(Text(cell) for cell in row))
             console.print(table)

@@ -102,7 +102,7 @@ def sample_configurations(
             point[index] = value
         if not ranges.draw(point, random):
             continue
-        landed = _project(equations, point, free)
+        landed = project(equations, point, free)
         if landed is None or not (positive.values(landed) >= -1e-9).all():
             continue
         if any(np.abs(group.values(landed)).max(initial=0.0) < 1e-6 for group in exclusions):
@@ -111,7 +111,7 @@ def sample_configurations(
     return found
 
 
-def _project(equations: NumericalSystem, point: Floats, free: list[int]) -> Floats | None:
+def project(equations: NumericalSystem, point: Floats, free: list[int]) -> Floats | None:
     """The end of Gauss-Newton from a point, moving the free coordinates only; None where it stalls."""
     import numpy as np
 
@@ -151,7 +151,7 @@ class _Ranges:
             if (self.bounds.values(point) > 0).all():
                 if not len(self.relations.coefficients):
                     return True
-                landed = _project(self.relations, point, self.indices)
+                landed = project(self.relations, point, self.indices)
                 if landed is not None and (self.bounds.values(landed) > 0).all():
                     point[:] = landed
                     return True

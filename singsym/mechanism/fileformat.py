@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Mapping
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
@@ -46,10 +47,9 @@ def load(name: str | Path) -> Mechanism:
         return loads(library_text(str(name)), origin=f"{name}.toml")
     path = Path(name)
     if not path.is_file():
-        known = ", ".join(library_names())
-        raise FileNotFoundError(
-            f"no file and no mechanism of the library is called {name}; there are {known}"
-        )
+        close = get_close_matches(str(name), library_names(), 3)
+        advice = f"did you mean {' or '.join(close)}?" if close else "singsym list shows the library"
+        raise FileNotFoundError(f"no file and no mechanism of the library is called {name}; {advice}")
     if path.stat().st_size > MAX_SIZE:
         found, expected = f"{path.stat().st_size} bytes", f"a mechanism file of at most {MAX_SIZE}"
         raise MechanismError([Problem("file", found, expected, file=str(name))])

@@ -123,9 +123,9 @@ def index(cards: Iterable[Card], planned: int) -> str:
     note = f'<p class="undecided">{missing} of {planned} are not classified yet.</p>' if missing else ""
     parts = [
         "<header><h1>Singularities of mechanisms</h1>"
-        f"<p>{len(shown)} mechanisms with their classes of singular configurations, each proven to occur by"
-        " a certified configuration, proven empty, or left open.  A title leads to the mechanism's report,"
-        f" with all figures, equations and proofs.</p>{note}</header>",
+        f"<p>{_count(len(shown), 'mechanism')} with the classes of singular configurations, each proven to"
+        " occur by a certified configuration, proven empty, or left open.  A title leads to the mechanism's"
+        f" report, with all figures, equations and proofs.</p>{note}</header>",
         f'<nav aria-label="Contents"><ul><li><a href="#overview">Overview</a></li>{links}</ul></nav><main>',
         f'<section id="overview"><h2>Overview</h2>{_overview(shown)}</section>',
     ]

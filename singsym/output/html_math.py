@@ -52,6 +52,26 @@ def _indexed(p: Polynomial) -> dict[sympy.Symbol, sympy.Symbol]:
     return found
 
 
+def terms(p: Polynomial, relation: str = "", longest: int = LONGEST) -> str:
+    """A polynomial, with its relation to zero if there is one, as one formula a term, for lines to break.
+
+    >>> from singsym.polynomials import Ring
+    >>> x, y = Ring(("x", "y")).gens
+    >>> terms(x - y).count("<math>"), terms(x - y, "=").count("<math>"), "1 more" in terms(x - y, longest=1)
+    (2, 3, True)
+    """
+    found = []
+    for place, (exponents, coefficient) in enumerate(p.terms()[:longest]):
+        sign = "" if place == 0 else "−" if coefficient < 0 else "+"
+        term = p.ring.from_dict({exponents: abs(coefficient) if sign else coefficient})
+        found.append(formula(f'<mo form="infix">{sign}</mo>' if sign else "", polynomial(term)))
+    if len(p) > longest:
+        found.append(f"+ … ({len(p) - longest} more terms)")
+    if relation:
+        found.append(formula(f'<mo form="infix">{escape(relation)}</mo><mn>0</mn>'))
+    return " ".join(found)
+
+
 def equation(p: Polynomial, relation: str = "=", longest: int = LONGEST) -> str:
     """A polynomial and its relation to zero, as MathML elements."""
     return f"{polynomial(p, longest)}<mo>{escape(relation)}</mo><mn>0</mn>"

@@ -90,12 +90,18 @@ for (const box of document.querySelectorAll('.motion')) {
   const curves = JSON.parse(box.querySelector('script').textContent);
   const curve = box.querySelector('.curve'), place = box.querySelector('.place');
   const draw = () => {
-    const c = curves[curve.value], f = c.frames[place.value];
+    const c = curves[curve.value], f = c.frames[place.value], names = [];
     for (const e of box.querySelectorAll('[data-at]')) {
       const at = e.dataset.at.split(' ').map(i => [f[2 * i], f[2 * i + 1]]);
       const set = (x, y) => { e.setAttribute(x, at[0][0]); e.setAttribute(y, at[0][1]); };
       if (e.tagName === 'circle') set('cx', 'cy');
-      else if (e.tagName === 'text') set('x', 'y');
+      else if (e.tagName === 'text') {
+        // names of one place stand side by side
+        const here = names.filter(([x, y]) => Math.hypot(x - at[0][0], y - at[0][1]) < 14);
+        names.push([...at[0], e.textContent.length]);
+        set('x', 'y');
+        e.setAttribute('dx', here.reduce((all, [, , length]) => all + 12 * length + 8, 12));
+      }
       else if (e.tagName === 'path') e.setAttribute('transform', `translate(${at[0]})`);
       else e.setAttribute('points', at.map(p => p.join()).join(' '));
     }
@@ -103,6 +109,7 @@ for (const box of document.querySelectorAll('.motion')) {
   };
   curve.addEventListener('change', draw);
   place.addEventListener('input', draw);
+  draw();
 }
 """
 

@@ -9,6 +9,7 @@ import re
 from collections.abc import Sequence
 from html import escape
 
+from singsym.output.pieces import filled
 from singsym.output.plot_style import INK, INPUT, LINK, MOTION, OUTPUT, PALE, PAPER, PLATFORM, SERIES, Picture
 
 _LIGHT = {
@@ -61,7 +62,8 @@ figcaption, .note { color: var(--faint); font-size: .92rem; }
 .class > * { min-width: 0; } .figures { display: flex; flex-wrap: wrap; gap: 1rem; }
 .figures > figure { flex: 1 1 24rem; min-width: 0; }
 .broad svg { max-width: none; }
-math { font-size: 1.05em; } .formula { overflow-x: auto; padding: .2rem 0; }
+math { font-size: 1.05em; white-space: nowrap; overflow-wrap: normal; }
+.formula { overflow-x: auto; padding: .2rem 0; }
 mtr.labels { color: var(--faint); font-size: .8em; }
 .motion svg { display: block; width: 100%; max-width: 40rem; } .motion input { width: min(30rem, 90%); }
 .motion select { max-width: 100%; font: inherit; } .motion output { font-variant-numeric: tabular-nums; }
@@ -120,7 +122,12 @@ def _scroll(label: str, style: str = "wide") -> str:
 
 
 def table(headers: Sequence[str], rows: Sequence[tuple[str, Sequence[str]]], label: str) -> str:
-    """A table that scrolls by itself where it is wider than the page; rows with their CSS class, as HTML."""
+    """A table that scrolls by itself where it is wider than the page; rows with their CSS class, as HTML.
+
+    Columns without an entry are left out.
+    """
+    kept = filled(headers, [cells for _, cells in rows])
+    headers, rows = [headers[j] for j in kept], [(style, [cells[j] for j in kept]) for style, cells in rows]
     head = "".join(f'<th scope="col">{h}</th>' for h in headers)
     lines = "".join(
         f'<tr class="{style}">' + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"

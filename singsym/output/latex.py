@@ -25,6 +25,9 @@ if TYPE_CHECKING:
 WIDEST = 30
 """A matrix as wide as this many terms side by side fills the line; entries that do not fit get a name."""
 
+LONGEST, SHORT = 24, 8
+"""Terms of a polynomial that alone makes a condition, and of each where several vanish together."""
+
 _PREAMBLE = r"""\documentclass[a4paper,10pt]{article}
 \usepackage[T1]{fontenc}
 \usepackage[utf8]{inputenc}
@@ -153,7 +156,7 @@ def matrix_latex(name: str, matrix: PolynomialMatrix, columns: Sequence[Column])
     body = " \\\\\n".join(f" & {row}" for row in rows)
     array = (
         f"\\[\\begin{{array}}{{r|{'c' * matrix.width}}}\n"
-        f"{name}\n & {' & '.join(heads)} \\\\\n\\hline\n{body}\n\\end{{array}}\\]"
+        f"{name}\n & {' & '.join(heads)} \\\\\n\\hline\n\\rule{{0pt}}{{2.6ex}}{body}\n\\end{{array}}\\]"
     )
     return [array, *(["with " + ",\n".join(named) + "."] if named else [])]
 
@@ -222,11 +225,13 @@ def _units(condition: Condition) -> str:
 
 
 def _alternative(factors: Iterable[Factor]) -> str:
-    return r" \emph{and} ".join(_factor(f) for f in factors)
+    every = tuple(factors)
+    longest = LONGEST if len(every) == 1 else SHORT
+    return r" \emph{and} ".join(_factor(f, longest) for f in every)
 
 
-def _factor(factor: Factor) -> str:
-    shown = polynomial_latex(factor.polynomial)
+def _factor(factor: Factor, longest: int) -> str:
+    shown = polynomial_latex(factor.polynomial, longest)
     if factor.name is None:
         return f"${shown} = 0$"
     return f"${factor.name.latex} = {shown} = 0$, {escaped(factor.words)}"

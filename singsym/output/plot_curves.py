@@ -9,18 +9,22 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
 from singsym.classes.result import Classification, ClassResult, Locus
 from singsym.elimination.budget import Budget
 from singsym.kinematics.placement import JointValue
-from singsym.kinematics.sampling import NumericalSystem
+from singsym.kinematics.sampling import NumericalSystem, project
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import JointRate
 from singsym.output.plot_style import DASHES, INK, PALE, SERIES, Floats, Picture, canvas
 from singsym.polynomials import Polynomial
 from singsym.varieties.real.curve import real_curve
+
+_VISIBLE = 1e-3
+"""How far a curve may be from its chords, as a part of its extent."""
 
 _SHAPES = "osD^vPX*<>"
 
@@ -50,8 +54,10 @@ def trace_loci(classification: Classification, seconds: float | None = 20.0) -> 
     for locus in classification.loci:
         if locus.dimension == 1 and not space.parameters:
             curve = real_curve((*space.equations, locus.factor), budget=Budget(seconds), drawing=True)
+            system = NumericalSystem((*space.equations, locus.factor), len(space.ring.names))
             full = [
-                tuple(_with_constants(classification, line) for line in c.polylines) for c in curve.components
+                tuple(smooth(_with_constants(classification, line), system) for line in c.polylines)
+                for c in curve.components
             ]
             if full:
                 found.append(Trace(locus, tuple(full)))
@@ -65,6 +71,29 @@ def _with_constants(classification: Classification, line: Floats) -> Floats:
     columns = iter(line.T)
     full = [np.full(len(line), constants[n]) if n in constants else next(columns) for n in ring.names]
     return np.array(full).T
+
+
+def smooth(line: Floats, system: NumericalSystem, halvings: int = 4) -> Floats:
+    """A polyline on the curve of a system with vertices added, until it bends less than can be seen.
+
+    Vertices are the ends of Gauss-Newton from the chords' midpoints; what does not end near by is left out.
+    """
+    free = [i for i, column in enumerate(line.T) if np.ptp(column) > 0]
+    size = float(np.ptp(line, axis=0).max(initial=0.0))
+    for _ in range(halvings):
+        vertices = [line[0]]
+        for start, end in pairwise(line):
+            middle = (start + end) / 2
+            landed = project(system, middle, free)
+            if landed is not None:
+                away, chord = np.linalg.norm(landed - middle), np.linalg.norm(end - start)
+                if _VISIBLE * size < away < chord / 3:
+                    vertices.append(landed)
+            vertices.append(end)
+        if len(vertices) == len(line):
+            break
+        line = np.array(vertices)
+    return line
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,7 +187,7 @@ def plot_curves(
     axes_of = {"inputs": input_plane, "outputs": output_plane}
     chosen = axes_of[plane](classification) if isinstance(plane, str) and plane in axes_of else plane
     if chosen is None or isinstance(chosen, str):
-        raise ValueError(f"plane {plane!r}: expected 'inputs', 'outputs' of a 2-DOF mechanism, or two labels")
+        raise ValueError(_no_plane(classification, plane))
     traces = trace_loci(classification) if traces is None else traces
     if not traces:
         raise ValueError("no locus is a curve that could be traced: there is nothing to draw")
@@ -172,7 +201,9 @@ def plot_curves(
             label = trace.label if j == 0 else None
             for x in _wrapped(across.at(line), across.is_angle):
                 for y in _wrapped(up.at(line), up.is_angle):
-                    axes.plot(x, y, label=label, **style)
+                    # a curve along which neither coordinate changes is a point of the plane
+                    marker = "." if np.ptp(x) + np.ptp(y) < 1e-6 else None
+                    axes.plot(x, y, label=label, marker=marker, **style)
                     label = None
     for result, shape in zip(_finite(classification), _SHAPES, strict=False):
         points = [_vector(classification, w.coordinates) for w in result.witnesses]
@@ -185,6 +216,14 @@ def plot_curves(
     figure.suptitle(title, fontsize=12, color=INK)
     described = "; ".join(t.label for t in traces)
     return Picture(figure, title, f"{title}: {chosen[0]} across, {chosen[1]} up. Curves: {described}")
+
+
+def _no_plane(classification: Classification, plane: object) -> str:
+    if plane not in ("inputs", "outputs"):
+        return f"plane {plane!r}: expected 'inputs', 'outputs' or two labels"
+    n = classification.equation.n
+    reason = f"has n = {n}" if n != 2 else f"has no two known coordinates of its {plane}"
+    return f"curves over the {plane} are for mechanisms of mobility 2: this one {reason}"
 
 
 def _finite(classification: Classification) -> list[ClassResult]:
@@ -225,4 +264,5 @@ def _finish(axes: object, across: Coordinate, up: Coordinate) -> None:
     for spine in axes.spines.values():
         spine.set_color(PALE)
     figure = axes.figure
-    figure.legend(loc="outside lower center", ncols=2, fontsize=8.5, frameon=False, labelcolor=INK)
+    look = {"fontsize": 8.5, "handlelength": 3.4, "frameon": False, "labelcolor": INK}
+    figure.legend(loc="outside lower center", ncols=2, **look)

@@ -53,9 +53,12 @@ def restriction_text(motion: Motion) -> str:
 
     >>> restriction_text(Motion(SingularityType.II, {"A": 1.0, "E": -0.5}, True))
     'A − 0.5 E = 0'
+    >>> restriction_text(Motion(SingularityType.IO, {"x": -0.5, "y": 1.0}, True))
+    '−0.5 x + y = 0'
     """
     terms = []
     for label, x in motion.rates.items():
         size = "" if abs(abs(x) - 1) < 1e-9 else f"{abs(x):.3g} "
         terms.append(f"{'−' if x < 0 else '+'} {size}{label}")
-    return " ".join(terms).removeprefix("+ ") + " = 0"
+    first = terms[0].removeprefix("+ ").replace("− ", "−")
+    return " ".join([first, *terms[1:]]) + " = 0"

@@ -54,8 +54,7 @@ def draw_spatial(axes: Any, scene: Scene, motions: Sequence[tuple[Motion, Veloci
     if not spherical:
         _feet(axes, scene, size)
     for mark in scene.marks:
-        ends = [depth(b.places) for b in scene.bodies if b.name in mark.links and len(b.places) > 1]
-        order = _FRONT if spherical else max([depth(mark.place), *ends]) + 0.05
+        order = _FRONT if spherical else _order(mark, scene, depth)
         _joint(axes, mark, size, order, spherical)
     for place in scene.outputs:
         axes.plot(*place[:2], "D", ms=7, mfc=OUTPUT, mec=INK, mew=1, zorder=17)
@@ -77,6 +76,14 @@ class _Depth:
 
     def __call__(self, places: Floats) -> float:
         return 3 + 10 * (float(np.mean(np.atleast_2d(places)[:, 2])) - self._low) / self._range
+
+
+def _order(mark: Mark, scene: Scene, depth: _Depth) -> float:
+    """In front of the links of all joints at its place; inputs and outputs in front of other joints there."""
+    here = [m for m in scene.marks if np.abs(m.place - mark.place).max() < 1e-6 * scene.size]
+    links = {name for m in here for name in m.links}
+    ends = [depth(b.places) for b in scene.bodies if b.name in links and len(b.places) > 1]
+    return max([depth(mark.place), *ends]) + (0.5 if mark.active or mark.output else 0.05)
 
 
 def _axes(scene: Scene) -> Iterator[tuple[Mark, Floats]]:

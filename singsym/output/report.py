@@ -21,6 +21,9 @@ from singsym.polynomials import Polynomial, PolynomialMatrix
 LARGEST_MATRIX = 400
 """Matrices with more entries are left out of the page."""
 
+SHORT = 8
+"""Terms of a locus shown in lists and tables; all are among the equations, where the link leads."""
+
 WITNESSES = 24
 """Not more configurations of a class are listed."""
 
@@ -109,8 +112,8 @@ def _summary(classification: Classification) -> str:
         size = "empty" if locus.verdict.is_no else _known(locus.dimension)
         count = _count(locus.points, "point") or _count(locus.components, "component")
         link = f'<a href="#locus-{i}">({escape(locus.condition)})</a>'
-        rows.append((style, (link, _locus_name(classification, i), escape(locus.words), size, count)))
-    headers = ("condition", "vanishes", "in words", "dimension", "parts")
+        rows.append((style, (link, escape(locus.words), size, count, _locus_name(classification, i))))
+    headers = ("condition", "in words", "dimension", "parts", "vanishes")
     loci = html.table(headers, rows, "Loci of conditions (4) and (5)") if rows else ""
     return (
         f"<ul>{''.join(space)}</ul>"
@@ -129,7 +132,7 @@ def _locus_name(classification: Classification, index: int) -> str:
     head, named, _ = locus.latex.partition(" = ")
     if named and locus.words:
         return math.formula(math.name(head))
-    return math.formula(math.polynomial(locus.factor, 8))
+    return math.terms(locus.factor, longest=SHORT)
 
 
 def _class_table(classification: Classification) -> str:
@@ -238,10 +241,10 @@ def _vanishing(classification: Classification, piece: Piece) -> str:
         if p in place:
             i = place[p]
             words = classification.loci[i].words
-            shown = escape(words) if words else f"{_locus_name(classification, i)} = 0"
+            shown = escape(words) if words else math.terms(p, "=", SHORT)
             lines.append(f'<a href="#locus-{i}">{shown}</a>')
         else:
-            lines.append(math.formula(math.equation(p, longest=12)))
+            lines.append(math.terms(p, "=", 12))
     return " and ".join(lines) or "everywhere"
 
 
@@ -252,7 +255,7 @@ def _unequal(classification: Classification, piece: Piece) -> str:
     said = []
     for f in dict.fromkeys(factors):
         words = classification.loci[place[f]].words if f in place else ""
-        said.append(f"not {escape(words)}" if words else math.formula(math.equation(f, "≠", 8)))
+        said.append(f"not {escape(words)}" if words else math.terms(f, "≠", SHORT))
     groups = sum(len(e) > 1 for e in piece.exclusions)
     if groups:
         said.append(f"{groups} group{'' if groups == 1 else 's'} of polynomials not all zero")

@@ -1,6 +1,7 @@
 """What the commands print, and their exit codes: 0 decided, 3 undecided, 2 usage or bad input."""
 
 import json
+import re
 import subprocess
 import sys
 
@@ -214,3 +215,16 @@ def test_the_commands_that_need_no_solver_load_none():
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert done.stderr.strip() == "[]"
+
+
+def test_tables_on_a_narrow_terminal_are_whole(monkeypatch, capsys):
+    """Every word of the plain table is on the screen of 80 columns as well, nothing cut off with dots."""
+    assert main(["classify", "slider-crank", "--workers", "1"]) == 0
+    plain = capsys.readouterr().out
+    monkeypatch.setenv("COLUMNS", "80")
+    monkeypatch.setattr("sys.stdout.isatty", lambda: True, raising=False)
+    assert main(["classify", "slider-crank", "--workers", "1"]) == 0
+    shown = re.sub(r"\x1b\[[0-9;]*m", "", capsys.readouterr().out)
+    assert "…" not in shown
+    assert max(map(len, shown.splitlines())) <= 80
+    assert {w for w in plain.split() if w.isalpha()} == {w for w in shown.split() if w.isalpha()}

@@ -199,7 +199,9 @@ def test_files(tmp_path: Path) -> None:
     path.write_bytes(b"[" * 10_000_000)
     with pytest.raises(MechanismError, match="10000000 bytes"):
         load(path)
-    with pytest.raises(FileNotFoundError, match="zlatanov-2dof"):
+    with pytest.raises(FileNotFoundError, match="did you mean zlatanov-2dof"):
+        load("zlatanov-2-dof")
+    with pytest.raises(FileNotFoundError, match="singsym list"):
         load("no-such-mechanism")
 
 

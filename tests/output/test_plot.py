@@ -4,19 +4,22 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from matplotlib.colors import to_rgba
 
 from singsym.classes.classify import classify
 from singsym.classes.result import Classification
 from singsym.classes.types import SingularityType as T
-from singsym.kinematics.sampling import numerical_matrix, sample_configurations
+from singsym.kinematics.sampling import NumericalSystem, numerical_matrix, sample_configurations
 from singsym.mechanism import load
 from singsym.mechanism.model import Space
 from singsym.output.plot import class_pictures, plot_class, plot_mechanism
-from singsym.output.plot_curves import Coordinate, plot_curves, trace_loci
+from singsym.output.plot_curves import Coordinate, plot_curves, smooth, trace_loci
 from singsym.output.plot_motion import drawn_motions, motions_at, restriction_text
 from singsym.output.plot_scene import Stage, openness
+from singsym.output.plot_style import INPUT, PAPER
 from singsym.output.plot_view import seen, viewpoint
 from singsym.output.strata_graph import plot_strata, strata_graph
+from singsym.polynomials import Ring
 
 
 @pytest.fixture(scope="module")
@@ -97,6 +100,39 @@ def test_curves_have_the_components_that_are_proven_and_lie_on_their_loci(linkag
     assert plot_curves(linkage, ("C.x", "G.y"), traces).title == "Singularity curves"
 
 
+def test_a_polygon_in_a_circle_becomes_round() -> None:
+    """An arc of angle a is 1 - cos(a / 2) away from its chord; vertices stay in their order."""
+    x, y = Ring(("x", "y")).gens
+    angles = np.linspace(0, 2 * np.pi, 7)
+    polygon = np.array([np.cos(angles), np.sin(angles)]).T
+    line = smooth(polygon, NumericalSystem([x**2 + y**2 - 1], 2))
+    assert np.hypot(*line.T) == pytest.approx(1)
+    steps = np.diff(np.unwrap(np.arctan2(line[:, 1], line[:, 0])))
+    assert (steps > 0).all()
+    assert steps.sum() == pytest.approx(2 * np.pi)
+    assert 1 - np.cos(steps / 2).min() < 0.002
+    assert len(smooth(line[:3], NumericalSystem([x], 2))) == 3, "what lands far away is left out"
+
+
+def test_a_curve_that_stays_over_a_point_is_marked_there() -> None:
+    """Five-bar with equal rods: with B on D the point C turns about them while the cranks stand still.
+
+    The angle at E is that of the link DE, from D to E: B = 2 (cos a, sin a), D = (1, 0) - 2 (cos e, sin e).
+    """
+    figure = plot_curves(classify(load("five-bar"), cache=False), "inputs").figure
+    dots = [line for line in figure.axes[0].lines if line.get_marker() == "."]
+    assert dots
+    for line in dots:
+        a, e = (np.asarray(data)[0] for data in (line.get_xdata(), line.get_ydata()))
+        assert 2 * np.cos(a) == pytest.approx(1 - 2 * np.cos(e))
+        assert np.sin(a) == pytest.approx(-np.sin(e))
+
+
+def test_planes_that_are_not_there_are_refused_with_the_reason() -> None:
+    with pytest.raises(ValueError, match="mobility 2: this one has n = 1"):
+        plot_curves(classify(load("fourbar"), cache=False), "inputs")
+
+
 def test_coordinates_of_another_name_are_refused_with_those_there_are(linkage: Classification) -> None:
     with pytest.raises(ValueError, match="expected one of A, B"):
         _ = Coordinate("Q", linkage.equation).is_angle
@@ -150,3 +186,12 @@ def test_files_and_configurations_that_are_not_there_are_refused(linkage: Classi
         plot_mechanism(load("fourbar"), {"Bx": 1})
     with pytest.raises(ValueError, match="configurations known"):
         plot_class(linkage, T.IIM | T.RPM)
+
+
+def test_an_input_is_seen_where_another_joint_lies_on_it() -> None:
+    """Sarrus, both legs folded: the input A1, in orange, is drawn after A3 at the same place."""
+    result = classify(load("sarrus"), cache=False)
+    found = result.of(T.RI | T.RO | T.RPM | T.IIM)
+    (axes,) = plot_class(result, found).figure.axes
+    fills = {p.get_facecolor(): p.get_zorder() for p in sorted(axes.patches, key=lambda p: p.get_zorder())}
+    assert fills[to_rgba(INPUT)] > fills[to_rgba(PAPER)]
