@@ -122,7 +122,8 @@ class Ground:
         On a component False may be a guess, which only makes a stratum empty and sends its closure down as a
         locus again.  Raises `NotEvident` on a patch where it seems to be, unproven.
         """
-        if certifier.normal_form(self.patch.restrict(polynomial)).is_zero:
+        restricted = self.patch.restrict(polynomial)
+        if certifier.normal_form(restricted).is_zero or certifier.shorten(restricted).is_zero:
             return True
         if is_large(polynomial, self.samples):
             return False

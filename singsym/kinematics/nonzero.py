@@ -130,7 +130,7 @@ class Certifier:
     def shorten(self, polynomial: Polynomial) -> Polynomial:
         """A polynomial with the same values on the configuration space, with fewer terms where one is found.
 
-        Takes away rational multiples of equations as long as it helps.
+        Takes away rational multiples of equations as long as it helps; a multiple of an equation is 0.
         """
         if polynomial.total_degree < 2 or len(polynomial) > LONGEST:
             return polynomial
@@ -138,7 +138,7 @@ class Certifier:
             best = min((polynomial, *self.forms(polynomial)), key=len)
             while (shorter := self._shorter(best)) is not None:
                 best = shorter
-            self._short[polynomial] = best
+            self._short[polynomial] = polynomial.ring.zero if self._is_multiple(best) else best
         return self._short[polynomial]
 
     @cached_property
@@ -148,6 +148,11 @@ class Certifier:
     @cached_property
     def _short(self) -> dict[Polynomial, Polynomial]:
         return {}
+
+    def _is_multiple(self, polynomial: Polynomial) -> bool:
+        names = set(polynomial.variables)
+        possible = (e for e in self.space.equations if e and names.issuperset(e.variables))
+        return any(e.divides(polynomial) for e in possible)
 
     def _shorter(self, polynomial: Polynomial) -> Polynomial | None:
         terms = dict(polynomial.terms())

@@ -99,11 +99,11 @@ def test_what_is_known_is_not_written_again() -> None:
 
 
 def test_a_minor_that_only_seems_to_vanish_is_not_evident() -> None:
-    """On the patch x^2 - 2 y^2 = 0, not taken apart, (x - sqrt 2 y) (x + sqrt 2 y) is zero, not by itself."""
-    patch = Patch(R, {}, (x**2 - 2 * y**2,))
-    where = Ground(patch, ((2**0.5, 1.0),))
+    """It is in the ideal of the patch, but no multiple of one equation; the point: y^2 = sqrt 2, x = y^3."""
+    one, two = x**2 - 2 * y**2, y**3 - x
+    where = Ground(Patch(R, {}, (one, two)), ((2**0.75, 2**0.25),))
     with pytest.raises(NotEvident):
-        rank(PolynomialMatrix.of(R, [[x**4 - 4 * y**4]]), where)
+        rank(PolynomialMatrix.of(R, [[y * one + x * two]]), where)
 
 
 @pytest.mark.parametrize("n", [1, 2, 3])
