@@ -15,7 +15,7 @@ from singsym.classes.explore import Found
 from singsym.classes.result import Configuration, Equations, Piece
 from singsym.classes.strata import Stratum
 from singsym.classes.symmetry import image
-from singsym.elimination.budget import Budget, Undecided
+from singsym.elimination.budget import Budget, Undecided, current
 from singsym.elimination.verdict import Verdict
 from singsym.kinematics.placement import Coordinates, JointValue
 from singsym.varieties.real.box import BoxPoint
@@ -29,6 +29,9 @@ from singsym.varieties.real.zerodim import NotZeroDimensional, real_points
 DIGITS = 15
 SEARCHES = 300
 """Random starts in the search for a point of a set given by independent equations."""
+
+DIMENSION_SECONDS = 10.0
+"""So long the dimension of a set that has a certified point is looked for."""
 
 _BITS = 80
 
@@ -151,10 +154,18 @@ def _given(piece: Piece, system: RealSystem, elsewhere: tuple[Equations, ...]) -
             return _finite(piece, solutions, system)
         except NotZeroDimensional:
             return _positive(piece, real_dimension(system))
-    witness = find_witness(system, dimension=dimension, tries=SEARCHES)
-    if witness is not None and independent(system.closed_equations, witness.point):
+    witness = find_witness(system, tries=SEARCHES)
+    if witness is None:
+        return _positive(piece, real_dimension(system))
+    if independent(system.closed_equations, witness.point):
         return _positive(piece, (dimension, witness))
-    return _positive(piece, real_dimension(system))
+    try:
+        with current().part(DIMENSION_SECONDS):
+            return _positive(piece, real_dimension(system))
+    except Undecided as reason:
+        found, points = _positive(piece, (0, witness))
+        verdict = replace(found.verdict, reason=f"its dimension is not known: {reason}")
+        return replace(found, verdict=verdict, dimension=None), points
 
 
 def _lies_in(point: RealPoint, loci: tuple[Equations, ...]) -> bool:

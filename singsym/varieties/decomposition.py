@@ -25,6 +25,8 @@ from singsym.varieties.splitting import (
 )
 
 _PROOF_SECONDS = 10.0
+_LONGEST_CUT = 300
+"""An ideal is not taken apart along a longer polynomial, which would take too long to factor."""
 
 
 @dataclass(frozen=True)
@@ -290,7 +292,7 @@ def _by_eliminant(system: _System, ideal: Ideal, dimension: int) -> tuple[Compon
         return prune(pieces)
     if found.complete:
         return (Component(ideal, proven, dimension, True),)
-    if found.cut is not None:
+    if found.cut is not None and len(found.cut) <= _LONGEST_CUT:
         curve = ideal.saturate(found.cut)
         beside = [_in_ring(p, ring) for p in _refine(system.plus(found.cut))]
         return prune((Component(curve, curve.certainty == "proven", dimension, True), *beside))

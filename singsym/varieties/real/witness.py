@@ -54,10 +54,16 @@ class RealSystem:
     def admits(self, point: RealPoint | BoxPoint) -> bool:
         """Whether a point that solves the equations meets all other conditions, by exact signs."""
         return (
-            all(any(point.sign(g) for g in group) for group in self.exclusions)
+            all(_is_off(point, group) for group in self.exclusions)
             and all(point.sign(p) > 0 for p in self.positive)
             and all(point.sign(p) >= 0 for p in self.nonnegative)
         )
+
+
+def _is_off(point: RealPoint | BoxPoint, group: Sequence[Polynomial]) -> bool:
+    """Whether some polynomial is not zero; the largest first, whose sign is decided soonest."""
+    sizes = [abs(g.evaluate(point.floats)) for g in group]
+    return any(point.sign(group[k]) for k in sorted(range(len(group)), key=lambda k: -sizes[k]))
 
 
 @dataclass(frozen=True)
@@ -222,17 +228,15 @@ def _certified(
 ) -> RealPoint | BoxPoint | None:
     """An exact point with the frozen values, nearest to the sample; a box for a large square system."""
     ring = system.ring
-    if _bezout(equations, values) > _FEW_SOLUTIONS:
-        box = _certified_box(system, equations, values, sample)
-        if box is not None:
-            return box
+    if _bezout(equations, values) > _FEW_SOLUTIONS and len(equations) == len(ring.names) - len(values):
+        return _certified_box(system, equations, values, sample)
     try:
         points = frozen_points(ring, equations, values, budget.part(_SOLVE_SECONDS))
     except NotZeroDimensional:
         return None
     except (BudgetExceeded, EngineFailure):
         budget.check("the search for a real point")
-        return _certified_box(system, equations, values, sample)
+        return None
     order = sorted(points, key=lambda p: sum((a - b) ** 2 for a, b in zip(p.floats, sample, strict=True)))
     return next((p for p in order if system.admits(p)), None)
 
@@ -244,8 +248,6 @@ def _bezout(equations: Sequence[Polynomial], values: dict[str, Fraction]) -> int
 def _certified_box(
     system: RealSystem, equations: Sequence[Polynomial], values: dict[str, Fraction], sample: Vector
 ) -> BoxPoint | None:
-    if len(equations) != len(system.ring.names) - len(values):
-        return None
     point = boxed_point(system.ring, equations, values, [float(v) for v in sample])
     try:
         return point if point is not None and system.admits(point) else None
