@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from singsym.kinematics.nonzero import Certifier
 from singsym.kinematics.placement import ConfigurationSpace
-from singsym.minors.rank import numerical_rank, rank_at, rank_blocks, rank_locus, rank_modulo
+from singsym.minors.rank import numerical_rank, rank_at, rank_blocks, rank_locus, rank_modulo, simplest_blocks
 from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
 
 R = Ring(("x", "y", "z"))
@@ -26,8 +26,8 @@ def test_ranks_and_rank_locus(rows: list[list[Polynomial]], point: list[int]) ->
     assert rank_at(matrix, exact) == rank
     assert rank_modulo(matrix, point, 1009) == rank
     assert numerical_rank([[float(int(v)) for v in row] for row in matrix.evaluate(point)]).rank == rank
-    parts = rank_blocks(matrix, SPACE)
-    assert parts.constant + sum(rank_at(block, exact) for block in parts.blocks) == rank
+    for parts in (rank_blocks(matrix, SPACE), simplest_blocks(matrix, SPACE, 1)):
+        assert parts.constant + sum(rank_at(block, exact) for block in parts.blocks) == rank
     locus = rank_locus(matrix, 3, SPACE)
     assert locus is not None
     assert any(all(p.evaluate(exact) == 0 for p in a) for a in locus.alternatives) == (rank < 3)
