@@ -254,6 +254,7 @@ class _Work:
             (p for p in own if p.verdict.is_yes), key=lambda p: (-(p.dimension or 0), str(p.path))
         )
         doubts = [p.verdict.reason for p in own if p.verdict.is_undecided]
+        doubts += [p.verdict.reason for p in present if p.dimension is None]
         doubts += explored.doubts(candidate.types)
         if present:
             certainty = present[0].verdict.certainty

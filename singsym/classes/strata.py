@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations, product
-from math import comb
+from math import comb, prod
 
 from singsym.classes.patches import Patch
 from singsym.classes.types import Defects, SingularityType
@@ -140,6 +140,17 @@ def is_large(polynomial: Polynomial, samples: Samples) -> bool:
     return any(abs(polynomial.evaluate(x)) > 1e-6 * size for x in samples)
 
 
+MOST_PRODUCTS = 10**10
+"""A determinant whose rows have more terms, multiplied with each other, is not expanded."""
+
+
+def expanded(square: PolynomialMatrix) -> Polynomial:
+    """The determinant; raises `Undecided` where it would be too large."""
+    if prod(sum(map(len, row)) for row in square.rows) > MOST_PRODUCTS:
+        raise Undecided(f"a minor of size {square.width} is too large to be expanded")
+    return determinant(square)
+
+
 Places = tuple[tuple[int, ...], tuple[int, ...]]
 """Rows and columns of a minor."""
 
@@ -149,7 +160,7 @@ def numerical_minor(block: PolynomialMatrix, samples: Samples) -> Places:
     best: Places = ((), ())
     for x in samples:
         found = pivots([[float(e) for e in row] for row in block.evaluate(x)])
-        if len(found[0]) > len(best[0]) and is_large(determinant(block.select(*found)), (x,)):
+        if len(found[0]) > len(best[0]) and is_large(expanded(block.select(*found)), (x,)):
             best = found
     return best
 
@@ -185,11 +196,11 @@ def block_rank(
     BlockRank(rank=1, minors=(x,), exact=True)
     """
     rows, columns = start
-    last = determinant(block.select(rows, columns)) if rows else None
+    last = expanded(block.select(rows, columns)) if rows else None
     while not largest:
         candidates = []
         for r, c in _bordered(block.shape, rows, columns):
-            minor = determinant(block.select(r, c))
+            minor = expanded(block.select(r, c))
             if minor and not ground.vanishes(minor, certifier):
                 candidates.append((_weight(minor), r, c, minor))
                 if minor.is_constant:
@@ -223,7 +234,7 @@ def _with_locus(block: PolynomialMatrix, ground: Ground, certifier: Certifier, l
         choices = (largest, *_swapped(block.shape, rows, columns))
     minors: dict[Polynomial, None] = {}
     for i, j in choices:
-        minor = determinant(block.select(i, j))
+        minor = expanded(block.select(i, j))
         if not minor:
             continue
         try:
