@@ -12,7 +12,7 @@ from functools import cached_property
 
 from singsym.classes.patches import Patch, patches
 from singsym.classes.strata import Ground, Least, NotEvident, RankProblem, Samples, Stratum, ranked
-from singsym.classes.symmetry import IDENTITY, Reflection, compose, keeps, representatives
+from singsym.classes.symmetry import IDENTITY, Reflection, compose, image, keeps, representatives
 from singsym.classes.types import Defects, SingularityType
 from singsym.classes.work import Runner
 from singsym.elimination.budget import Budget, Undecided, current
@@ -43,6 +43,7 @@ class Branch:
     first, least, evident: see `strata.ranked`.
     symmetries: reflections that keep the whole problem; images: those under which this part stands for
         other parts, which are not searched.
+    elsewhere: sets that other branches search; their points are not counted here.
     seconds, memory_mb: the budget of the decomposition.
     """
 
@@ -56,6 +57,7 @@ class Branch:
     evident: tuple[SingularityType, ...] = ()
     symmetries: tuple[Reflection, ...] = (IDENTITY,)
     images: tuple[Reflection, ...] = (IDENTITY,)
+    elsewhere: tuple[Equations, ...] = ()
     seconds: float | None = None
     memory_mb: int | None = None
 
@@ -137,6 +139,7 @@ def explore(branch: Branch) -> Explored:
             parts = patches(branch.equations, _nonzero(branch.admitted), branch.feasible.ring)
             for k, images in representatives([p.generators for p in parts], branch.kept):
                 work.patch(parts[k], images)
+                work.earlier += [image(parts[k].generators, reflection) for reflection in images]
     except Undecided as reason:
         work.undecided.append(str(reason))
     return Explored(tuple(work.found), tuple(work.following), tuple(work.undecided))
@@ -154,6 +157,7 @@ class _Exploring:
     found: list[Found] = field(default_factory=list)
     following: list[Branch] = field(default_factory=list)
     undecided: list[str] = field(default_factory=list)
+    earlier: list[Equations] = field(default_factory=list)
 
     def patch(self, patch: Patch, images: tuple[Reflection, ...]) -> None:
         """The ranks on a patch as it stands; where that is not evident, on its components."""
@@ -171,20 +175,27 @@ class _Exploring:
                 pass
         elif _is_empty(replace(admitted, equations=patch.rest)):
             return
+        known: tuple[Equations, ...] = ()
         for component in decompose(patch.generators, _nonzero(admitted), ring=admitted.ring):
             samples = _samples(component, admitted)
             if samples is not None:
-                self._ranked(Ground(patch, samples, component), images)
+                self._ranked(Ground(patch, samples, component), images, known)
+                known = (*known, component.generators)
 
-    def _ranked(self, ground: Ground, images: tuple[Reflection, ...]) -> None:
+    def _ranked(
+        self, ground: Ground, images: tuple[Reflection, ...], known: tuple[Equations, ...] = ()
+    ) -> None:
+        """The strata of a ground; `known`: other grounds of the same patch, looked at before."""
         branch = self.branch
+        elsewhere = (*branch.elsewhere, *self.earlier, *known)
         all_images = tuple(dict.fromkeys(compose(r, other) for r in branch.images for other in images))
-        part = replace(branch, images=all_images)
+        part = replace(branch, images=all_images, elsewhere=elsewhere)
         found = ranked(
             branch.problem, ground, branch.admitted, branch.first, dict(branch.least), branch.evident
         )
         if found.stratum is not None:
-            stratum = replace(found.stratum, loci=(*branch.away, *found.stratum.loci))
+            loci = (*branch.away, *found.stratum.loci)
+            stratum = replace(found.stratum, loci=loci, elsewhere=elsewhere)
             self.found.append(Found(branch.path, stratum, all_images))
         taken: tuple[Equations, ...] = ()
         for whole, least in found.loci.items():

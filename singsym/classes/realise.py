@@ -118,7 +118,7 @@ def _realised(piece: Piece, system: RealSystem, stratum: Stratum) -> tuple[Piece
     if component is None:
         return _given(piece, system, stratum.elsewhere)
     if component.dimension == 0:
-        return _finite(piece, real_points(stratum.equations), system)
+        return _finite(piece, real_points(stratum.equations), system, stratum.elsewhere)
     return _positive(piece, component_dimension(component, system))
 
 
@@ -150,8 +150,7 @@ def _given(piece: Piece, system: RealSystem, elsewhere: tuple[Equations, ...]) -
     dimension = len(system.ring.names) - len(system.closed_equations)
     if dimension <= 0:
         try:
-            solutions = [p for p in real_points(piece.basis) if not _lies_in(p, elsewhere)]
-            return _finite(piece, solutions, system)
+            return _finite(piece, real_points(piece.basis), system, elsewhere)
         except NotZeroDimensional:
             return _positive(piece, real_dimension(system))
     witness = find_witness(system, tries=SEARCHES)
@@ -172,10 +171,12 @@ def _lies_in(point: RealPoint, loci: tuple[Equations, ...]) -> bool:
     return any(all(point.sign(p) == 0 for p in locus) for locus in loci)
 
 
-def _finite(piece: Piece, solutions: Sequence[RealPoint], system: RealSystem) -> tuple[Piece, Points]:
-    points = tuple(p for p in solutions if system.admits(p))
+def _finite(
+    piece: Piece, solutions: Sequence[RealPoint], system: RealSystem, elsewhere: tuple[Equations, ...]
+) -> tuple[Piece, Points]:
+    points = tuple(p for p in solutions if system.admits(p) and not _lies_in(p, elsewhere))
     if not points:
-        verdict = Verdict.no(reason="none of finitely many complex solutions is real and feasible")
+        verdict = Verdict.no(reason="none of finitely many complex solutions is real, feasible and new")
         return replace(piece, verdict=verdict, dimension=-1, points=0), ()
     count = len(points)
     return replace(piece, verdict=Verdict.yes(), dimension=0, points=count, components=count), points

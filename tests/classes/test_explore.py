@@ -11,10 +11,13 @@ import pytest
 
 from singsym.classes import classify as module
 from singsym.classes.classify import classify
-from singsym.classes.explore import explore, numerical_points, split_product
+from singsym.classes.explore import Branch, explore, numerical_points, search, split_product
+from singsym.classes.realise import Names, RealTask, realise
 from singsym.classes.result import Classification
+from singsym.classes.strata import RankProblem
+from singsym.classes.work import Runner
 from singsym.mechanism import load
-from singsym.polynomials import Ring
+from singsym.polynomials import PolynomialMatrix, Ring
 from singsym.varieties.real.witness import RealSystem
 
 
@@ -45,6 +48,20 @@ def test_numerical_points_lie_on_the_set() -> None:
 def test_numerical_points_of_an_empty_set() -> None:
     ring = Ring(("x",))
     assert numerical_points(RealSystem(ring, (), ()), (ring.gens[0] ** 2 + 1,)) == ()
+
+
+def test_a_point_of_two_patches_is_counted_once() -> None:
+    """On x y = 0 with L_I = (x), L_O = (y), L = (x y): the lines meet in the one point where L is zero."""
+    ring = Ring(("x", "y"))
+    x, y = ring.gens
+    row = PolynomialMatrix.of(ring, [[x, y]])
+    parts = {name: row.select(columns=c) for name, c in (("L_I", [0]), ("L_O", [1]), ("L_p", []))}
+    plane = RealSystem(ring, ())
+    root = Branch(RankProblem({"L": row, **parts}, 0, 1, 1), plane, (x * y,))
+    found = [part for part in search(root, Runner()).found if part.stratum.defects.delta]
+    assert len(found) == 2
+    pieces = [piece for part in found for piece in realise(RealTask(part, plane, Names())).pieces]
+    assert sum(piece.points or 0 for piece in pieces) == 1
 
 
 def test_same_result_for_one_and_two_workers(reference: dict[str, object]) -> None:
