@@ -1,8 +1,13 @@
-"""At the end of a run: the gallery's table of times, counts and engines, as its tests recorded it."""
+"""The same random examples in every run; at its end the gallery's table of times, counts and engines."""
 
 from __future__ import annotations
 
 from typing import Any
+
+from hypothesis import settings
+
+settings.register_profile("same examples in every run", derandomize=True)
+settings.load_profile("same examples in every run")
 
 
 def pytest_terminal_summary(terminalreporter: Any) -> None:
