@@ -18,7 +18,7 @@ from singsym.classes.work import Runner
 from singsym.elimination.budget import Budget, Undecided, current
 from singsym.polynomials import Polynomial
 from singsym.varieties.decomposition import Component, decompose
-from singsym.varieties.real.emptiness import complex_emptiness, is_empty_over_reals
+from singsym.varieties.real.emptiness import complex_emptiness, is_empty_over_reals, is_excluded
 from singsym.varieties.real.witness import RealSystem
 from singsym.varieties.real.zerodim import real_points
 
@@ -79,8 +79,13 @@ class Branch:
         path = tuple(dict.fromkeys((*self.path, *locus)))
         known = dict(self.least)
         known |= {name: max(defect, known.get(name, 0)) for name, defect in least.items()}
-        ready = replace(self, path=path, away=(*self.away, *away), least=tuple(sorted(known.items())))
-        return replace(ready, equations=(*equations, *locus))
+        return replace(
+            self,
+            equations=(*equations, *locus),
+            path=path,
+            away=(*self.away, *away),
+            least=tuple(sorted(known.items())),
+        )
 
 
 @dataclass(frozen=True)
@@ -136,17 +141,13 @@ def explore(branch: Branch) -> Explored:
             whole = replace(branch.admitted, equations=branch.equations, exclusions=left)
             if not numerical_points(whole, branch.equations, 1) and _is_empty(whole):
                 return Explored()
-            parts = patches(branch.equations, _nonzero(branch.admitted), branch.feasible.ring)
+            parts = patches(branch.equations, branch.admitted.nonzero, branch.feasible.ring)
             for k, images in representatives([p.generators for p in parts], branch.kept):
                 work.patch(parts[k], images)
                 work.earlier += [image(parts[k].generators, reflection) for reflection in images]
     except Undecided as reason:
         work.undecided.append(str(reason))
     return Explored(tuple(work.found), tuple(work.following), tuple(work.undecided))
-
-
-def _nonzero(system: RealSystem) -> list[Polynomial]:
-    return [*(e[0] for e in system.exclusions if len(e) == 1), *system.positive]
 
 
 @dataclass
@@ -176,7 +177,7 @@ class _Exploring:
         elif _is_empty(replace(admitted, equations=patch.rest)):
             return
         known: tuple[Equations, ...] = ()
-        for component in decompose(patch.generators, _nonzero(admitted), ring=admitted.ring):
+        for component in decompose(patch.generators, admitted.nonzero, ring=admitted.ring):
             samples = _samples(component, admitted)
             if samples is not None:
                 self._ranked(Ground(patch, samples, component), images, known)
@@ -222,7 +223,7 @@ def _is_empty(system: RealSystem) -> bool:
 
 def _samples(component: Component, feasible: RealSystem) -> Samples | None:
     """Real points of a component, numerical ones that only guide; None where it is proven to have none."""
-    if any(all(component.vanishes(g) for g in group) for group in feasible.exclusions):
+    if is_excluded(component, feasible):
         return None
     if component.dimension == 0:
         points = [p for p in real_points(component.ideal) if feasible.admits(p)]

@@ -86,7 +86,7 @@ class Realised:
     @property
     def provisional(self) -> bool:
         """Whether a larger budget could say more."""
-        return any(piece.verdict.is_undecided for piece in self.pieces)
+        return any(piece.provisional for piece in self.pieces)
 
 
 Points = tuple[RealPoint | BoxPoint, ...]

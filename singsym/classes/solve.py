@@ -25,6 +25,7 @@ from singsym.varieties.cells import Cell
 from singsym.varieties.constructible import ConstructibleSet
 from singsym.varieties.decomposition import Component, decompose
 from singsym.varieties.real.dimension import component_dimension
+from singsym.varieties.real.emptiness import is_excluded
 from singsym.varieties.real.points import RealPoint
 from singsym.varieties.real.witness import RealSystem
 from singsym.varieties.real.zerodim import real_points
@@ -216,13 +217,10 @@ def _closed(condition: Condition, found: Conditions, runner: Runner, limits: Lim
 def solve_locus(task: LocusTask) -> Solved:
     """Decompose a closed part and find real points on each component: the task that workers run."""
     feasible = task.feasible
-    nonzero = [*(e[0] for e in feasible.exclusions if len(e) == 1), *feasible.positive]
     try:
         with Budget(task.seconds, task.memory_mb):
-            components = decompose((*task.path, *task.equations), nonzero, ring=feasible.ring)
-            kept = [
-                c for c in components if not any(all(map(c.vanishes, group)) for group in feasible.exclusions)
-            ]
+            components = decompose((*task.path, *task.equations), feasible.nonzero, ring=feasible.ring)
+            kept = [c for c in components if not is_excluded(c, feasible)]
             return Solved(tuple(_real(task, component) for component in kept))
     except Undecided as reason:
         return Solved((), str(reason))

@@ -90,10 +90,6 @@ Samples = tuple[tuple[float, ...], ...]
 class NotEvident(Undecided):
     """A polynomial seems to vanish on a set, and substitution alone does not show it."""
 
-    def __init__(self, polynomial: Polynomial) -> None:
-        super().__init__("a minor seems to vanish on a part of the configuration space")
-        self.polynomial = polynomial
-
 
 @dataclass(frozen=True)
 class Ground:
@@ -130,7 +126,7 @@ class Ground:
         if self.component is not None and self.component.ideal.contains(polynomial):
             return True
         if self.component is None:
-            raise NotEvident(polynomial)
+            raise NotEvident("a minor seems to vanish on a part of the configuration space")
         return not self.component.prime and self.component.ideal.radical_contains(polynomial)
 
 

@@ -91,8 +91,7 @@ def real_dimension(
 
 def _real_dimension(system: RealSystem, budget: Budget, seed: int) -> tuple[int, Witness | None]:
     best: tuple[int, Witness | None] = (-1, None)
-    nonzero = [*system.positive, *(g[0] for g in system.exclusions if len(g) == 1)]
-    components = decompose(system.closed_equations, nonzero, ring=system.ring, budget=budget)
+    components = decompose(system.closed_equations, system.nonzero, ring=system.ring, budget=budget)
     for component in sorted(components, key=lambda c: -c.dimension):
         if component.dimension <= best[0]:
             continue

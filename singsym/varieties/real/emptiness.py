@@ -80,8 +80,7 @@ def _decided(system: RealSystem, budget: Budget, seed: int, tries: int) -> Verdi
         return Verdict.yes(
             reason="sums of squares bound the variables, and a condition fails within the bounds"
         )
-    nonzero = [*system.positive, *(g[0] for g in system.exclusions if len(g) == 1)]
-    components = decompose([*equations, *forced], nonzero, ring=system.ring, budget=budget)
+    components = decompose([*equations, *forced], system.nonzero, ring=system.ring, budget=budget)
     components = tuple(c for c in components if not is_excluded(c, system))
     if not components:
         return Verdict.yes(reason="there is no complex solution")

@@ -51,6 +51,11 @@ class RealSystem:
         found = [f for f in (*self.equations, *self.ring.relations) if not f.is_zero]
         return tuple(dict.fromkeys(found))
 
+    @property
+    def nonzero(self) -> tuple[Polynomial, ...]:
+        """Single polynomials that do not vanish on any solution."""
+        return (*self.positive, *(group[0] for group in self.exclusions if len(group) == 1))
+
     def admits(self, point: RealPoint | BoxPoint) -> bool:
         """Whether a point that solves the equations meets all other conditions, by exact signs."""
         return (
