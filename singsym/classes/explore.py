@@ -10,15 +10,17 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
-from singsym.classes.patches import Patch, patches
-from singsym.classes.strata import Ground, Least, NotEvident, RankProblem, Samples, Stratum, ranked
+from singsym.classes.patches import Patch, patches, unsplit
+from singsym.classes.strata import Ground, Least, NotEvident, RankProblem, Stratum, ranked
 from singsym.classes.symmetry import IDENTITY, Reflection, compose, image, keeps, representatives
 from singsym.classes.types import Defects, SingularityType
 from singsym.classes.work import Runner
 from singsym.elimination.budget import Budget, Undecided, current
 from singsym.polynomials import Polynomial
 from singsym.varieties.decomposition import Component, decompose
-from singsym.varieties.real.emptiness import complex_emptiness, is_empty_over_reals, is_excluded
+from singsym.varieties.real.cartesian import Cartesian
+from singsym.varieties.real.emptiness import is_empty_over_reals, is_excluded
+from singsym.varieties.real.sampling import Points, numerical_points
 from singsym.varieties.real.witness import RealSystem
 from singsym.varieties.real.zerodim import real_points
 
@@ -28,8 +30,6 @@ _SIMPLE = (_T(0), _T.RI | _T.IO, _T.RO | _T.II)
 Equations = tuple[Polynomial, ...]
 EMPTINESS_SECONDS = 10.0
 """So long a proof is waited for that a part has no zero at all."""
-STARTS = 60
-"""Random starts for numerical points of a set."""
 
 
 @dataclass(frozen=True)
@@ -137,9 +137,9 @@ def explore(branch: Branch) -> Explored:
     work = _Exploring(branch)
     try:
         with Budget(branch.seconds, branch.memory_mb):
-            left = _left(branch.admitted.exclusions, branch.equations)
-            whole = replace(branch.admitted, equations=branch.equations, exclusions=left)
-            if not numerical_points(whole, branch.equations, 1) and _is_empty(whole):
+            whole = unsplit(branch.equations, branch.feasible.ring)
+            system = _restricted(branch.admitted, whole)
+            if not _points(system, whole, 1) and _is_empty(system):
                 return Explored()
             parts = patches(branch.equations, branch.admitted.nonzero, branch.feasible.ring)
             for k, images in representatives([p.generators for p in parts], branch.kept):
@@ -162,23 +162,21 @@ class _Exploring:
 
     def patch(self, patch: Patch, images: tuple[Reflection, ...]) -> None:
         """The ranks on a patch as it stands; where that is not evident, on its components."""
-        admitted = self.branch.admitted
-        restricted = [tuple(map(patch.restrict, group)) for group in admitted.exclusions]
-        admitted = replace(admitted, exclusions=_left(restricted, patch.rest))
-        if () in admitted.exclusions:
+        system = _restricted(self.branch.admitted, patch)
+        if () in system.exclusions:
             return
-        found = numerical_points(admitted, patch.generators)
+        found = _points(system, patch)
         if found:
             try:
-                self._ranked(Ground(patch, found), images)
-                return
-            except NotEvident:
-                pass
-        elif _is_empty(replace(admitted, equations=patch.rest)):
+                self._ranked(Ground(patch, found, system=system), images)
+            except NotEvident as doubt:
+                self._split(patch, doubt.polynomial, images)
+            return
+        if _is_empty(system):
             return
         known: tuple[Equations, ...] = ()
-        for component in decompose(patch.generators, admitted.nonzero, ring=admitted.ring):
-            samples = _samples(component, admitted)
+        for component in decompose(patch.generators, system.nonzero, ring=system.ring):
+            samples = _samples(component, system)
             if samples is not None:
                 self._ranked(Ground(patch, samples, component), images, known)
                 known = (*known, component.generators)
@@ -188,16 +186,14 @@ class _Exploring:
     ) -> None:
         """The strata of a ground; `known`: other grounds of the same patch, looked at before."""
         branch = self.branch
-        elsewhere = (*branch.elsewhere, *self.earlier, *known)
-        all_images = tuple(dict.fromkeys(compose(r, other) for r in branch.images for other in images))
-        part = replace(branch, images=all_images, elsewhere=elsewhere)
+        part = self._part(images, known)
         found = ranked(
             branch.problem, ground, branch.admitted, branch.first, dict(branch.least), branch.evident
         )
         if found.stratum is not None:
             loci = (*branch.away, *found.stratum.loci)
-            stratum = replace(found.stratum, loci=loci, elsewhere=elsewhere)
-            self.found.append(Found(branch.path, stratum, all_images))
+            stratum = replace(found.stratum, loci=loci, elsewhere=part.elsewhere)
+            self.found.append(Found(branch.path, stratum, part.images))
         taken: tuple[Equations, ...] = ()
         for whole, least in found.loci.items():
             for locus in split_product(whole):
@@ -206,59 +202,69 @@ class _Exploring:
                     taken = (*taken, locus)
 
 
+    def _split(self, patch: Patch, polynomial: Polynomial, images: tuple[Reflection, ...]) -> None:
+        """A patch as two branches: the zeros of a polynomial and the rest."""
+        part = self._part(images)
+        taken: tuple[Equations, ...] = ()
+        for factor in split_product((polynomial,)):
+            self.following.append(part.within(factor, taken, patch.generators, {}))
+            taken = (*taken, factor)
+        self.following.append(part.within((), taken, patch.generators, {}))
+
+    def _part(self, images: tuple[Reflection, ...], known: tuple[Equations, ...] = ()) -> Branch:
+        """The branch with the images of one patch, and with what was looked at before."""
+        branch = self.branch
+        all_images = tuple(dict.fromkeys(compose(r, other) for r in branch.images for other in images))
+        return replace(branch, images=all_images, elsewhere=(*branch.elsewhere, *self.earlier, *known))
+
+
 def _left(exclusions: Iterable[Equations], equations: Equations) -> tuple[Equations, ...]:
     """The exclusions without zeros and equations; an empty one where nothing is left."""
     known = {p.primitive() for p in equations if p}
     return tuple(tuple(g for g in group if g and g.primitive() not in known) for group in exclusions)
 
 
+def _restricted(system: RealSystem, patch: Patch) -> RealSystem:
+    """A set on a patch, in the variables that are not solved for."""
+    restrict = patch.restrict
+    exclusions = (tuple(map(restrict, group)) for group in system.exclusions)
+    return RealSystem(
+        system.ring,
+        patch.rest,
+        _left(exclusions, patch.rest),
+        tuple(map(restrict, system.positive)),
+        tuple(map(restrict, system.nonnegative)),
+    )
+
+
+def _points(system: RealSystem, patch: Patch, count: int = 3) -> Points:
+    """Numerical points of a set on a patch, in all variables."""
+    return numerical_points(replace(system, equations=patch.generators), count)
+
+
 def _is_empty(system: RealSystem) -> bool:
-    """Whether it is quickly proven that there is no zero, not even over the complex numbers.
+    """Whether it is quickly proven that there is no real point."""
+    chart = Cartesian.of(system)
+    try:
+        with current().part(EMPTINESS_SECONDS):
+            if chart.is_empty():
+                return True
+    except Undecided:
+        pass
+    return is_empty_over_reals(chart.trimmed, current().part(EMPTINESS_SECONDS)).is_yes
 
-    Exclusions of several polynomials are left out: they would bring many variables.
-    """
-    single = tuple(group for group in system.exclusions if len(group) == 1)
-    return complex_emptiness(replace(system, exclusions=single), current().part(EMPTINESS_SECONDS)).is_yes
 
-
-def _samples(component: Component, feasible: RealSystem) -> Samples | None:
+def _samples(component: Component, feasible: RealSystem) -> Points | None:
     """Real points of a component, numerical ones that only guide; None where it is proven to have none."""
     if is_excluded(component, feasible):
         return None
     if component.dimension == 0:
         points = [p for p in real_points(component.ideal) if feasible.admits(p)]
         return tuple(p.floats for p in points) or None
-    found = numerical_points(feasible, component.generators)
+    found = numerical_points(replace(feasible, equations=component.generators))
     if not found and is_empty_over_reals(replace(feasible, equations=component.generators)).is_yes:
         return None
     return found
-
-
-def numerical_points(feasible: RealSystem, equations: Equations, count: int = 3) -> Samples:
-    """Real points near the zeros of the equations and off the exclusions, as many as are found quickly."""
-    import numpy
-
-    from singsym.varieties.real.search import Compiled, gauss_newton
-
-    ring = feasible.ring
-    compiled = Compiled((*equations, *ring.relations), ring)
-    random = numpy.random.default_rng(0)
-    found: list[tuple[float, ...]] = []
-    for _ in range(STARTS):
-        start = random.normal(size=len(ring.names)) * 2
-        for constant in ring.constants:
-            start[ring.index(constant.name)] = float((constant.low + constant.high) / 2)
-        x = gauss_newton(compiled, start)
-        if x is None:
-            continue
-        point = tuple(map(float, x))
-        if all(any(abs(g.evaluate(point)) > 1e-6 for g in group) for group in feasible.exclusions) and all(
-            p.evaluate(point) > -1e-9 for p in (*feasible.positive, *feasible.nonnegative)
-        ):
-            found.append(point)
-        if len(found) == count:
-            break
-    return tuple(found)
 
 
 Loci = tuple[Equations, ...]

@@ -13,6 +13,7 @@ from functools import lru_cache
 from flint import fmpq
 
 from singsym.elimination.budget import current
+from singsym.elimination.substitution import substitute_solved
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.splitting import factor_equations, irreducible_factors, linear_substitution
 
@@ -39,6 +40,21 @@ class Patch:
         """The polynomial with the solved variables put in."""
         present = {n: v for n, v in self.solved.items() if n in polynomial.variables}
         return polynomial.substitute(present) if present else polynomial
+
+
+def unsplit(equations: Sequence[Polynomial], ring: Ring) -> Patch:
+    """All zeros as one patch: solved for what equations give at once.
+
+    >>> R = Ring(("x", "y"))
+    >>> x, y = R.gens
+    >>> unsplit([x - y, x * y - 1], R).generators
+    (x - y, y^2 - 1)
+    """
+    rest, made = substitute_solved(equations)
+    solved: dict[str, Polynomial] = {}
+    for name, value, _ in made:
+        solved = {n: v.substitute({name: value}) for n, v in solved.items()} | {name: value}
+    return Patch(ring, solved, tuple(rest))
 
 
 def patches(equations: Iterable[Polynomial], nonzero: Sequence[Polynomial], ring: Ring) -> tuple[Patch, ...]:

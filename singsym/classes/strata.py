@@ -11,12 +11,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import combinations, product
 from math import comb, prod
 
 from singsym.classes.patches import Patch
 from singsym.classes.types import Defects, SingularityType
 from singsym.elimination.budget import Undecided
+from singsym.elimination.ideal import Ideal
 from singsym.kinematics.nonzero import Certifier
 from singsym.kinematics.placement import ConfigurationSpace
 from singsym.minors.blocks import easy_columns
@@ -25,8 +27,12 @@ from singsym.minors.factored import factored
 from singsym.minors.rank import alternatives, simplest_blocks
 from singsym.polynomials import Polynomial, PolynomialMatrix
 from singsym.varieties.decomposition import Component
+from singsym.varieties.real.cartesian import Cartesian
+from singsym.varieties.real.sampling import Points
 from singsym.varieties.real.witness import RealSystem
 
+MEMBERSHIP_SECONDS = 2.0
+"""So long a Groebner basis of a patch as a whole is waited for, to prove that minors vanish on it."""
 ALL_MINORS = 24
 """Up to this many minors of a block, its rank locus is written with all of them."""
 EASY_MINORS = 24
@@ -83,21 +89,35 @@ class Stratum:
     elsewhere: tuple[tuple[Polynomial, ...], ...] = ()
 
 
-Samples = tuple[tuple[float, ...], ...]
-"""Numerical real points of a set: they guide the choice of minors, they prove nothing."""
-
-
 class NotEvident(Undecided):
-    """A polynomial seems to vanish on a set, and substitution alone does not show it."""
+    """A polynomial seems to vanish on a set, and that is not proven."""
+
+    def __init__(self, polynomial: Polynomial) -> None:
+        super().__init__("a minor seems to vanish on a part of the configuration space")
+        self.polynomial = polynomial
+
+    def __reduce__(self) -> tuple[type[NotEvident], tuple[Polynomial]]:
+        return NotEvident, (self.polynomial,)
 
 
 @dataclass(frozen=True)
 class Ground:
-    """Where ranks are asked for: a patch or one component of it, with points on it to guess from."""
+    """Where ranks are asked for: a patch or one component of it, with points on it to guess from.
+
+    system: the patch off the exclusions.
+    """
 
     patch: Patch
-    samples: Samples = ()
+    samples: Points = ()
     component: Component | None = None
+    system: RealSystem | None = None
+
+    @cached_property
+    def _chart(self) -> tuple[Cartesian, tuple[Ideal, ...]] | None:
+        if self.system is None:
+            return None
+        chart = Cartesian.of(self.system)
+        return chart, chart.based(MEMBERSHIP_SECONDS)
 
     @property
     def equations(self) -> tuple[Polynomial, ...]:
@@ -126,11 +146,13 @@ class Ground:
         if self.component is not None and self.component.ideal.contains(polynomial):
             return True
         if self.component is None:
-            raise NotEvident("a minor seems to vanish on a part of the configuration space")
+            if self._chart is not None and self._chart[0].vanishes(restricted, self._chart[1]):
+                return True
+            raise NotEvident(restricted)
         return not self.component.prime and self.component.ideal.radical_contains(polynomial)
 
 
-def is_large(polynomial: Polynomial, samples: Samples) -> bool:
+def is_large(polynomial: Polynomial, samples: Points) -> bool:
     """Whether a polynomial is certainly not small at one of the points, relative to its coefficients."""
     size = max((abs(float(c.p) / float(c.q)) for _, c in polynomial.terms()), default=0.0)
     return any(abs(polynomial.evaluate(x)) > 1e-6 * size for x in samples)
@@ -151,7 +173,7 @@ Places = tuple[tuple[int, ...], tuple[int, ...]]
 """Rows and columns of a minor."""
 
 
-def numerical_minor(block: PolynomialMatrix, samples: Samples) -> Places:
+def numerical_minor(block: PolynomialMatrix, samples: Points) -> Places:
     """A minor that is as large as the rank of the block at one of the samples, and not small there."""
     best: Places = ((), ())
     for x in samples:

@@ -11,13 +11,14 @@ import pytest
 
 from singsym.classes import classify as module
 from singsym.classes.classify import classify
-from singsym.classes.explore import Branch, explore, numerical_points, search, split_product
+from singsym.classes.explore import Branch, explore, search, split_product
 from singsym.classes.realise import Names, RealTask, realise
 from singsym.classes.result import Classification
 from singsym.classes.strata import RankProblem
 from singsym.classes.work import Runner
 from singsym.mechanism import load
 from singsym.polynomials import PolynomialMatrix, Ring
+from singsym.varieties.real.sampling import numerical_points
 from singsym.varieties.real.witness import RealSystem
 
 
@@ -40,14 +41,14 @@ def test_powers_and_products_are_split() -> None:
 def test_numerical_points_lie_on_the_set() -> None:
     ring = Ring(("x", "y"))
     x, y = ring.gens
-    found = numerical_points(RealSystem(ring, (), ()), (x**2 + y**2 - 4,))
+    found = numerical_points(RealSystem(ring, (x**2 + y**2 - 4,)))
     assert len(found) == 3
     assert all(abs(a * a + b * b - 4) < 1e-9 for a, b in found)
 
 
 def test_numerical_points_of_an_empty_set() -> None:
     ring = Ring(("x",))
-    assert numerical_points(RealSystem(ring, (), ()), (ring.gens[0] ** 2 + 1,)) == ()
+    assert numerical_points(RealSystem(ring, (ring.gens[0] ** 2 + 1,))) == ()
 
 
 def test_a_point_of_two_patches_is_counted_once() -> None:

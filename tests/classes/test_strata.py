@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
+from dataclasses import replace
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from singsym.classes.explore import numerical_points
 from singsym.classes.patches import Patch
 from singsym.classes.strata import (
     BlockRank,
@@ -22,6 +23,7 @@ from singsym.classes.strata import (
 from singsym.classes.types import Defects, SingularityType, feasible_defects
 from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
 from singsym.varieties.decomposition import decompose
+from singsym.varieties.real.sampling import numerical_points
 from singsym.varieties.real.witness import RealSystem
 
 R = Ring(("x", "y"))
@@ -31,7 +33,7 @@ x, y = R.gens
 def ground(*equations: Polynomial) -> Ground:
     (component,) = decompose(equations, ring=R)
     everywhere = RealSystem(R, ())
-    return Ground(Patch(R, {}, component.generators), numerical_points(everywhere, equations), component)
+    return Ground(Patch(R, {}, component.generators), numerical_points(replace(everywhere, equations=equations)), component)
 
 
 def rank(matrix: PolynomialMatrix, where: Ground) -> BlockRank:

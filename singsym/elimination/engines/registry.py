@@ -9,6 +9,7 @@ import logging
 import os
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -41,10 +42,13 @@ _ENGINES: dict[str, Engine] = {e.name: e for e in (flint, msolve, singular, symp
 _DEFAULT = ("flint", "msolve", "singular")
 # seconds after which the next engine is asked, when there is a next one
 _PATIENCE = {"flint": 1.5, "msolve": 300.0, "singular": 300.0, "sympy": 300.0}
+# the same for FLINT where msolve is the next one
+_FLINT_BEFORE_MSOLVE = 0.3
 # the same for the last engine, when the caller set no limit
 _LAST_PATIENCE, _DECOMPOSITION_PATIENCE = 3600.0, 120.0
 _CHECK_SECONDS = 20.0
-_PROOF_SECONDS = 5.0
+# a proof of what is known modulo primes may take so many times as long, between these limits
+_PROOF_FACTOR, _PROOF_SECONDS = 4.0, (1.0, 5.0)
 
 _allowed: ContextVar[tuple[str, ...]] = ContextVar("engines", default=_DEFAULT)
 
@@ -95,7 +99,7 @@ def solve(task: Task, budget: Budget | None = None) -> EngineAnswer:
         )
     failures: list[Undecided] = []
     for engine in candidates:
-        patience = _patience(task, engine, engine is candidates[-1], budget.remaining())
+        patience = _patience(task, engine, candidates, budget.remaining())
         if (answer := _attempt(engine, task, patience, budget, failures)) is not None:
             return answer
     # engines that broke down give FLINT back the time that it was refused before
@@ -111,8 +115,10 @@ def _attempt(
     engine: Engine, task: Task, patience: float | None, budget: Budget, failures: list[Undecided]
 ) -> EngineAnswer | None:
     """The checked answer; `None`, with the failure noted, where there is none within so many seconds."""
+    start = time.monotonic()
     try:
-        return _checked(task, _run(engine, task, budget.part(patience)), budget)
+        answer = _run(engine, task, budget.part(patience))
+        return _checked(task, answer, time.monotonic() - start, budget)
     except (EngineFailure, BudgetExceeded) as failure:
         budget.check(task.kind)
         failures.append(failure)
@@ -120,10 +126,13 @@ def _attempt(
         return None
 
 
-def _patience(task: Task, engine: Engine, last: bool, left: float | None) -> float | None:
+def _patience(task: Task, engine: Engine, candidates: list[Engine], left: float | None) -> float | None:
     """Seconds for this engine: all that is left for the last one, but never without end outside Python."""
-    if not last:
-        return min(_PATIENCE[engine.name], float("inf") if left is None else left / 2)
+    if engine is not candidates[-1]:
+        patience = _PATIENCE[engine.name]
+        if candidates[:2] == [flint, msolve] and engine is flint:
+            patience = _FLINT_BEFORE_MSOLVE
+        return min(patience, float("inf") if left is None else left / 2)
     if left is not None or engine.name in ("flint", "sympy"):
         return None
     return _LAST_PATIENCE if task.kind == "groebner" else _DECOMPOSITION_PATIENCE
@@ -139,8 +148,8 @@ def _run(engine: Engine, task: Task, budget: Budget) -> EngineAnswer:
         return engine.run(task, budget)
 
 
-def _checked(task: Task, answer: EngineAnswer, budget: Budget) -> EngineAnswer:
-    """The answer, with a lower certainty where a part of the check could not be made."""
+def _checked(task: Task, answer: EngineAnswer, seconds: float, budget: Budget) -> EngineAnswer:
+    """The answer, which took so many seconds, with a lower certainty where a check could not be made."""
     if task.characteristic:
         return answer
     if task.kind != "groebner":
@@ -161,7 +170,8 @@ def _checked(task: Task, answer: EngineAnswer, budget: Budget) -> EngineAnswer:
     if not (complete and compared):
         return replace(answer, certainty="modular")
     if answer.certainty == "modular" and answer.ideals[0] == (task.ring.one,):
-        return _proven_unit(task, answer, budget)
+        shortest, longest = _PROOF_SECONDS
+        return _proven_unit(task, answer, budget.part(min(max(_PROOF_FACTOR * seconds, shortest), longest)))
     return answer
 
 
@@ -170,7 +180,7 @@ def _proven_unit(task: Task, answer: EngineAnswer, budget: Budget) -> EngineAnsw
     engine: Engine = singular if has(singular.name) else flint
     if has(engine.name):
         try:
-            exact = engine.run(task, budget.part(_PROOF_SECONDS))
+            exact = engine.run(task, budget)
         except (EngineFailure, BudgetExceeded) as failure:
             log.debug("no proof: %s", failure)
         else:

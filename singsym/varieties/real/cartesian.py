@@ -1,0 +1,295 @@
+"""From a unit vector and its length to one vector: fewer variables and lower degrees in proofs.
+
+A leg of length q along (c, s), with c^2 + s^2 = 1, ends at (q c, q s); where q is known not to vanish, the
+equations can be written in these, and often q itself can go: a point instead of an angle and a length.
+Source: singsym's own; the map is a quotient by the reflection (c, s, q) -> (-c, -s, -q).
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from singsym.elimination.budget import Undecided, current
+from singsym.elimination.ideal import Ideal
+from singsym.kinematics.nonzero import remainder
+from singsym.polynomials import Polynomial, Ring
+from singsym.varieties.real.sampling import is_off, numerical_points
+from singsym.varieties.real.witness import RealSystem
+from singsym.varieties.splitting import linear_substitution, used_ring
+
+LONGEST_SUM = 12
+"""Sums of squares with more terms are not used as exclusions."""
+CLOSED_POINTS = 20
+"""So many numerical points are looked at for the exclusions that matter."""
+Group = tuple[Polynomial, ...]
+
+
+@dataclass(frozen=True)
+class Cartesian:
+    """A system in the same ring with other meanings of some variables, or as it was where that is simpler.
+
+    Its real points are the images of those of the given system.  An exclusion of several polynomials is that
+    of the zeros of the sum of their squares where this is short.
+    """
+
+    system: RealSystem
+    vectors: tuple[_Vector, ...] = ()
+
+    @classmethod
+    def of(cls, system: RealSystem) -> Cartesian:
+        """Vectors as long as they make the equations smaller.
+
+        >>> R = Ring(("c", "s", "q", "w"))
+        >>> c, s, q, w = R.gens
+        >>> leg = RealSystem(R, (c**2 + s**2 - 1, q**2 + w**2 - 1, 2 * s * q + w), exclusions=((q,),))
+        >>> Cartesian.of(leg).system.equations
+        (c^2 + s^2 + w^2 - 1, 2*s + w)
+        """
+        found = cls(replace(system, exclusions=_short_exclusions(system)))
+        while (simpler := found._simpler()) is not None:
+            found = simpler
+        return found
+
+    def _simpler(self) -> Cartesian | None:
+        used = [vector.circle for vector in self.vectors]
+        best, size = None, _size(self.system)
+        for circle in _circles(self.system.equations):
+            if circle in used:
+                continue
+            for length in (group[0] for group in self.system.exclusions if len(group) == 1):
+                vector = _Vector.of(circle, length, self.system)
+                if vector is not None:
+                    changed = vector.applied(self.system)
+                    if _size(changed) < size:
+                        best, size = Cartesian(changed, (*self.vectors, vector)), _size(changed)
+        return best
+
+    def moved(self, polynomial: Polynomial) -> Group:
+        """Polynomials that all vanish on the image of a set exactly if the given one vanishes on the set."""
+        parts: Group = (polynomial,)
+        for vector in self.vectors:
+            parts = tuple(other for p in parts for other in vector.parts(p))
+        return parts
+
+    @cached_property
+    def _needed(self) -> Group:
+        """Exclusions that leave out all numerical points of the closed set that are left out at all."""
+        nonzero = _nonconstant(self.system.nonzero)
+        closed = replace(self.system, exclusions=(), positive=(), nonnegative=())
+        points = numerical_points(closed, CLOSED_POINTS)
+        chosen: list[Polynomial] = []
+        while points:
+            reached = {p: sum(not is_off(x, (p,)) for x in points) for p in nonzero}
+            best = max(nonzero, key=lambda p: reached[p], default=None)
+            if best is None or not reached[best]:
+                break
+            chosen.append(best)
+            points = tuple(x for x in points if is_off(x, (best,)))
+        return tuple(chosen)
+
+    @cached_property
+    def _ideals(self) -> tuple[Ideal, ...]:
+        """The zeros off the exclusions that are needed, and off all single ones."""
+        return tuple(map(self._off, dict.fromkeys((self._needed, _nonconstant(self.system.nonzero)))))
+
+    def _off(self, nonzero: Group) -> Ideal:
+        """The equations with a variable for the inverse of each of some polynomials (Rabinowitsch 1929)."""
+        names = [f"inverse {k}" for k in range(len(nonzero))]
+        ring = self.system.ring.with_names((*names, *self.system.ring.names))
+        inverses = (ring.gen(name) * ring.convert(p) - 1 for name, p in zip(names, nonzero, strict=True))
+        return Ideal(ring, (*map(ring.convert, self.system.closed_equations), *inverses))
+
+    def based(self, seconds: float) -> tuple[Ideal, ...]:
+        """Those of the ideals whose Groebner bases are found in so many seconds."""
+        found: list[Ideal] = []
+        with suppress(Undecided), current().part(seconds):
+            for ideal in self._ideals:
+                ideal.groebner_basis()
+                found.append(ideal)
+        return tuple(found)
+
+    def vanishes(self, polynomial: Polynomial, ideals: tuple[Ideal, ...]) -> bool:
+        """Whether a polynomial of the given variables is seen to be zero wherever the given system holds."""
+        return any(_contains(ideal, self.moved(polynomial)) for ideal in ideals)
+
+    def is_empty(self) -> bool:
+        """Whether not even complex points are left; False where that is not seen at once.
+
+        A part may be excluded as a whole: all polynomials of an exclusion vanish on it.  Raises `Undecided`.
+
+        >>> R = Ring(("x", "y"))
+        >>> x, y = R.gens
+        >>> Cartesian.of(RealSystem(R, (x * y,), exclusions=((x, x * y), (y,)))).is_empty()
+        True
+        """
+        return any(p.is_zero for p in self.system.nonzero) or any(
+            ideal.is_unit() or any(_contains(ideal, group) for group in self.system.exclusions)
+            for ideal in self._ideals
+        )
+
+    @property
+    def trimmed(self) -> RealSystem:
+        """A projection to fewer coordinates: those left out are in one equation only, squared.
+
+        There x^2 + ... = f has real solutions exactly if f >= 0.  Only exclusions that seem to be needed are
+        kept, so there may be more points.
+
+        >>> R = Ring(("x", "y", "z"))
+        >>> x, y, z = R.gens
+        >>> Cartesian(RealSystem(R, (x**2 + y**2 + z - 1, z**2 - 2))).trimmed
+        RealSystem(ring=Q[z], equations=(z^2 - 2,), exclusions=(), positive=(), nonnegative=(-z + 1,))
+        """
+        system = self.system
+        exclusions = tuple((p,) for p in self._needed if p not in system.positive)
+        groups = (system.equations, system.positive, system.nonnegative, *exclusions)
+        uses = Counter(name for group in groups for p in group for name in p.variables)
+        equations, nonnegative = [], list(system.nonnegative)
+        for p in system.equations:
+            rest = _without_squares(p, {n for n in p.variables if uses[n] == 1})
+            if rest is None:
+                equations.append(p)
+            elif not rest.is_constant or rest.constant < 0:
+                nonnegative.append(rest)
+        kept = (*equations, *nonnegative, *system.positive, *(g for g, in exclusions))
+        ring = used_ring(system.ring, (*kept, *system.ring.relations))
+        convert = ring.convert
+        return RealSystem(
+            ring,
+            tuple(map(convert, equations)),
+            tuple(tuple(map(convert, group)) for group in exclusions),
+            tuple(map(convert, system.positive)),
+            tuple(map(convert, nonnegative)),
+        )
+
+
+def _without_squares(p: Polynomial, private: set[str]) -> Polynomial | None:
+    """f where p = 0 says that a sum of squares of the private variables is f; None where it does not."""
+    places = [i for i, name in enumerate(p.ring.names) if name in private]
+    own = {m: c for m, c in p.terms() if any(m[i] for i in places)}
+    if not own or any(sum(m) != 2 or max(m) != 2 for m in own) or len({c > 0 for c in own.values()}) > 1:
+        return None
+    rest = p - p.ring.from_dict(own)
+    return -rest if next(iter(own.values())) > 0 else rest
+
+
+def _nonconstant(polynomials: Group) -> Group:
+    return tuple(p for p in dict.fromkeys(polynomials) if not p.is_constant)
+
+
+def _contains(ideal: Ideal, polynomials: Group) -> bool:
+    return all(ideal.contains(ideal.ring.convert(p)) for p in polynomials)
+
+
+def _size(system: RealSystem) -> int:
+    return sum(sum(m) for p in system.equations for m, _ in p.terms())
+
+
+def _short_exclusions(system: RealSystem) -> tuple[Group, ...]:
+    """Short exclusions of several polynomials as those of their squares' sum, factor by factor."""
+    groups: list[Group] = []
+    for group in system.exclusions:
+        total = group[0] if group else system.ring.zero
+        if len(group) > 1 and sum(map(len, group)) <= LONGEST_SUM:
+            total = sum((g * g for g in group), start=system.ring.zero)
+            for circle in _circles(system.equations):
+                total = remainder(total, _circle(system.ring, circle), circle[1])
+        if total and len(total) <= LONGEST_SUM and (len(group) == 1 or total is not group[0]):
+            groups += [(factor,) for factor, _ in total.factors()]
+        else:
+            groups.append(group)
+    return _open(groups, system.ring)
+
+
+def _open(groups: Iterable[Group], ring: Ring) -> tuple[Group, ...]:
+    """Exclusions without those of nothing; (0,) where everything is excluded."""
+    kept = (tuple(g for g in group if g) or (ring.zero,) for group in groups)
+    return tuple(dict.fromkeys(g for g in kept if not any(p.is_constant and p for p in g)))
+
+
+def _circle(ring: Ring, names: tuple[str, ...]) -> Polynomial:
+    x, y = map(ring.gen, names)
+    return x * x + y * y - 1
+
+
+def _circles(equations: Iterable[Polynomial]) -> Iterator[tuple[str, ...]]:
+    """Pairs of variables whose squares have the sum 1."""
+    for p in equations:
+        if len(p) == 3 and p.total_degree == 2 and len(p.variables) == 2:
+            if p.primitive() == _circle(p.ring, p.variables):
+                yield p.variables
+
+
+@dataclass(frozen=True)
+class _Vector:
+    """New meanings: of `length`, that of the vector; of `circle`, the unit vector times the length.
+
+    put: the former variable in terms of the length; relation: length^2 + w^2 - 1 where the length is left
+    out by it.
+    """
+
+    circle: tuple[str, ...]
+    length: str
+    put: Polynomial
+    relation: Polynomial | None = None
+
+    @classmethod
+    def of(cls, circle: tuple[str, ...], length: Polynomial, system: RealSystem) -> _Vector | None:
+        if set(circle) & set(length.variables) or (solved := linear_substitution((length,))) is None:
+            return None
+        lead = length.coefficient(solved.name, 1).constant
+        vector = cls(circle, solved.name, solved.value + length.ring.gen(solved.name) / lead)
+        changed = [vector._changed(p) for p in system.equations]
+        for pair in (pair for pair in _circles(changed) if vector.length in pair):
+            short = replace(vector, relation=_circle(length.ring, pair))
+            signs = (vector._changed(p, even=True) for p in (*system.positive, *system.nonnegative))
+            if all(len(short.parts(p)) <= 1 for p in system.equations) and not any(
+                vector.length in short._reduced(p).variables for p in signs
+            ):
+                return short
+        return vector
+
+    def applied(self, system: RealSystem) -> RealSystem:
+        groups = [tuple(q for g in group for q in self.parts(g)) for group in system.exclusions]
+        length = system.ring.gen(self.length)
+        square = length if self.relation is None else 1 - (self.relation + 1 - length**2)
+        groups += [(factor,) for factor, _ in square.factors()]
+        positive, nonnegative = (
+            tuple(self._reduced(self._changed(p, even=True)) for p in signs)
+            for signs in (system.positive, system.nonnegative)
+        )
+        return RealSystem(
+            system.ring,
+            tuple(q for p in system.equations for q in self.parts(p)),
+            _open(groups, system.ring),
+            positive,
+            nonnegative,
+        )
+
+    def parts(self, p: Polynomial) -> Group:
+        """The polynomial in the new variables; in two parts where it holds odd powers of a length left out."""
+        changed = self._reduced(self._changed(p))
+        if not changed:
+            return ()
+        if self.relation is None:
+            return (changed,)
+        even, odd = (changed.coefficient(self.length, k) for k in (0, 1))
+        return tuple(q for q in (even, odd) if q)
+
+    def _reduced(self, p: Polynomial) -> Polynomial:
+        return p if self.relation is None else remainder(p, self.relation, self.length)
+
+    def _changed(self, p: Polynomial, even: bool = False) -> Polynomial:
+        """The polynomial times a power of the length, in the new variables; an even power where asked for."""
+        ring = p.ring
+        k, pair = ring.index(self.length), tuple(map(ring.index, self.circle))
+        p = p.substitute({self.length: self.put})
+        if p.is_zero:
+            return p
+        powers = {m: int(m[k]) - sum(int(m[i]) for i in pair) for m, _ in p.terms()}
+        shift = -min(powers.values())
+        shift += shift % 2 if even else 0
+        return ring.from_dict({(*m[:k], powers[m] + shift, *m[k + 1 :]): c for m, c in p.terms()})

@@ -1,0 +1,52 @@
+"""Numerical real points of a system: they guide choices, they prove nothing.
+
+Source: Gauss-Newton from random starts, see `search`.
+"""
+
+from __future__ import annotations
+
+from singsym.polynomials import Polynomial
+from singsym.varieties.real.witness import RealSystem
+
+STARTS = 60
+"""Random starts for numerical points of a set."""
+Points = tuple[tuple[float, ...], ...]
+
+
+def numerical_points(system: RealSystem, count: int = 3) -> Points:
+    """Real points near the solutions of a system, as many as are found quickly, the same at every call.
+
+    >>> from singsym.polynomials import Ring
+    >>> R = Ring(("x",))
+    >>> (x,) = R.gens
+    >>> numerical_points(RealSystem(R, (x**2 - 4,), positive=(x,)), 1)
+    ((2.0,),)
+    """
+    import numpy
+
+    from singsym.varieties.real.search import Compiled, gauss_newton
+
+    ring = system.ring
+    compiled = Compiled((*system.equations, *ring.relations), ring)
+    random = numpy.random.default_rng(0)
+    found: list[tuple[float, ...]] = []
+    for _ in range(STARTS):
+        start = random.normal(size=len(ring.names)) * 2
+        for constant in ring.constants:
+            start[ring.index(constant.name)] = float((constant.low + constant.high) / 2)
+        x = gauss_newton(compiled, start)
+        if x is None:
+            continue
+        point = tuple(map(float, x))
+        if all(is_off(point, group) for group in system.exclusions) and all(
+            p.evaluate(point) > -1e-9 for p in (*system.positive, *system.nonnegative)
+        ):
+            found.append(point)
+        if len(found) == count:
+            break
+    return tuple(found)
+
+
+def is_off(point: tuple[float, ...], group: tuple[Polynomial, ...]) -> bool:
+    """Whether some polynomial is not small at a point."""
+    return any(abs(g.evaluate(point)) > 1e-6 for g in group)
