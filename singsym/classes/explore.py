@@ -30,6 +30,8 @@ _SIMPLE = (_T(0), _T.RI | _T.IO, _T.RO | _T.II)
 Equations = tuple[Polynomial, ...]
 EMPTINESS_SECONDS = 10.0
 """So long a proof is waited for that a part has no zero at all."""
+REAL_EMPTINESS_SECONDS = 30.0
+"""So long a proof is waited for that it has no real one."""
 
 
 @dataclass(frozen=True)
@@ -251,7 +253,7 @@ def _is_empty(system: RealSystem) -> bool:
                 return True
     except Undecided:
         pass
-    return is_empty_over_reals(chart.trimmed, current().part(EMPTINESS_SECONDS)).is_yes
+    return is_empty_over_reals(chart.trimmed, current().part(REAL_EMPTINESS_SECONDS), tries=0).is_yes
 
 
 def _samples(component: Component, feasible: RealSystem) -> Points | None:
@@ -262,7 +264,7 @@ def _samples(component: Component, feasible: RealSystem) -> Points | None:
         points = [p for p in real_points(component.ideal) if feasible.admits(p)]
         return tuple(p.floats for p in points) or None
     found = numerical_points(replace(feasible, equations=component.generators))
-    if not found and is_empty_over_reals(replace(feasible, equations=component.generators)).is_yes:
+    if not found and is_empty_over_reals(replace(feasible, equations=component.generators), tries=0).is_yes:
         return None
     return found
 

@@ -83,7 +83,7 @@ def patches(equations: Iterable[Polynomial], nonzero: Sequence[Polynomial], ring
             waiting += [((*single, *others, p), solved) for p in reversed(chosen)]
             continue
         single = _shortened(single)
-        if len(set(single)) < len(factored) or any(len(p.factors()) > 1 for p in single):
+        if len(set(single)) < len(factored) or any(p.factors() != [(p, 1)] for p in single):
             waiting.append((tuple(single), solved))
             continue
         step = linear_substitution(single)

@@ -28,7 +28,7 @@ from singsym.minors.rank import alternatives, simplest_blocks
 from singsym.polynomials import Polynomial, PolynomialMatrix
 from singsym.varieties.decomposition import Component
 from singsym.varieties.real.cartesian import Cartesian
-from singsym.varieties.real.sampling import Points
+from singsym.varieties.real.sampling import Points, is_large
 from singsym.varieties.real.witness import RealSystem
 
 MEMBERSHIP_SECONDS = 2.0
@@ -150,12 +150,6 @@ class Ground:
                 return True
             raise NotEvident(restricted)
         return not self.component.prime and self.component.ideal.radical_contains(polynomial)
-
-
-def is_large(polynomial: Polynomial, samples: Points) -> bool:
-    """Whether a polynomial is certainly not small at one of the points, relative to its coefficients."""
-    size = max((abs(float(c.p) / float(c.q)) for _, c in polynomial.terms()), default=0.0)
-    return any(abs(polynomial.evaluate(x)) > 1e-6 * size for x in samples)
 
 
 MOST_PRODUCTS = 10**10

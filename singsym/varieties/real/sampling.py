@@ -8,6 +8,8 @@ from __future__ import annotations
 from singsym.polynomials import Polynomial
 from singsym.varieties.real.witness import RealSystem
 
+NEAR = 1e-3
+"""Values of exclusions below it, for coefficients of size 1, are taken for zero: as at a root fourfold or so."""
 STARTS = 60
 """Random starts for numerical points of a set."""
 Points = tuple[tuple[float, ...], ...]
@@ -49,4 +51,10 @@ def numerical_points(system: RealSystem, count: int = 3) -> Points:
 
 def is_off(point: tuple[float, ...], group: tuple[Polynomial, ...]) -> bool:
     """Whether some polynomial is not small at a point."""
-    return any(abs(g.evaluate(point)) > 1e-6 for g in group)
+    return any(is_large(g, (point,), NEAR) for g in group)
+
+
+def is_large(polynomial: Polynomial, points: Points, least: float = 1e-6) -> bool:
+    """Whether a polynomial is certainly not small at one of the points, relative to its coefficients."""
+    size = max((abs(float(c.p) / float(c.q)) for _, c in polynomial.terms()), default=0.0)
+    return any(abs(polynomial.evaluate(x)) > least * size for x in points)
