@@ -253,8 +253,8 @@ class _Work:
         present = sorted(
             (p for p in own if p.verdict.is_yes), key=lambda p: (-(p.dimension or 0), str(p.path))
         )
-        doubts = [p.verdict.reason for p in own if p.verdict.is_undecided]
-        doubts += [p.verdict.reason for p in present if p.dimension is None]
+        dimension = max((p.dimension for p in present if p.dimension is not None), default=None)
+        doubts = [p.verdict.reason for p in own if _in_doubt(p, dimension)]
         doubts += explored.doubts(candidate.types)
         if present:
             certainty = present[0].verdict.certainty
@@ -268,7 +268,6 @@ class _Work:
             reason = "; ".join(dict.fromkeys(ruled_out)) or "no stratum of the four ranks has these types"
             verdict = Verdict.no(reason=reason)
             steps = (excluded_in(candidate.types, occurring),)
-        dimension = max((p.dimension for p in present if p.dimension is not None), default=None)
         points = _counted(present) if dimension == 0 and not doubts else None
         return ClassResult(
             candidate,
@@ -332,6 +331,13 @@ def _with_components(locus: Locus, counted: Counted) -> Locus:
     if counted.components is None:
         verdict = replace(verdict, reason=f"components not counted: {counted.reason}")
     return replace(locus, components=counted.components, verdict=verdict)
+
+
+def _in_doubt(piece: Piece, known: int | None) -> bool:
+    """Whether a piece may change what is known of its class: dimension, points or connected components."""
+    if not piece.verdict.is_undecided and piece.dimension is not None:
+        return False
+    return known is None or known < 2 or piece.at_most is None or piece.at_most > known
 
 
 def _components(pieces: Sequence[Piece], loci: Sequence[Locus]) -> int | None:

@@ -140,7 +140,7 @@ def explore(branch: Branch) -> Explored:
     try:
         with Budget(branch.seconds, branch.memory_mb):
             whole = unsplit(branch.equations, branch.feasible.ring)
-            system = _restricted(branch.admitted, whole)
+            system = restricted(branch.admitted, whole)
             if not _points(system, whole, 1) and _is_empty(system):
                 return Explored()
             parts = patches(branch.equations, branch.admitted.nonzero, branch.feasible.ring)
@@ -164,7 +164,7 @@ class _Exploring:
 
     def patch(self, patch: Patch, images: tuple[Reflection, ...]) -> None:
         """The ranks on a patch as it stands; where that is not evident, on its components."""
-        system = _restricted(self.branch.admitted, patch)
+        system = restricted(self.branch.admitted, patch)
         if () in system.exclusions:
             return
         found = _points(system, patch)
@@ -203,7 +203,6 @@ class _Exploring:
                     self.following.append(part.within(locus, taken, ground.equations, least))
                     taken = (*taken, locus)
 
-
     def _split(self, patch: Patch, polynomial: Polynomial, images: tuple[Reflection, ...]) -> None:
         """A patch as two branches: the zeros of a polynomial and the rest."""
         part = self._part(images)
@@ -226,7 +225,7 @@ def _left(exclusions: Iterable[Equations], equations: Equations) -> tuple[Equati
     return tuple(tuple(g for g in group if g and g.primitive() not in known) for group in exclusions)
 
 
-def _restricted(system: RealSystem, patch: Patch) -> RealSystem:
+def restricted(system: RealSystem, patch: Patch) -> RealSystem:
     """A set on a patch, in the variables that are not solved for."""
     restrict = patch.restrict
     exclusions = (tuple(map(restrict, group)) for group in system.exclusions)

@@ -15,6 +15,7 @@ from flint import fmpq
 from singsym.elimination.budget import current
 from singsym.elimination.substitution import substitute_solved
 from singsym.polynomials import Polynomial, Ring
+from singsym.varieties.circles import unit_circles
 from singsym.varieties.splitting import factor_equations, irreducible_factors, linear_substitution
 
 MOST_PATCHES = 64
@@ -43,14 +44,15 @@ class Patch:
 
 
 def unsplit(equations: Sequence[Polynomial], ring: Ring) -> Patch:
-    """All zeros as one patch: solved for what equations give at once.
+    """All zeros as one patch: solved for what equations give at once, but not for the ring's constants.
 
     >>> R = Ring(("x", "y"))
     >>> x, y = R.gens
     >>> unsplit([x - y, x * y - 1], R).generators
     (x - y, y^2 - 1)
     """
-    rest, made = substitute_solved(equations)
+    constants = {constant.name for constant in ring.constants}
+    rest, made = substitute_solved(equations, [name for name in ring.names if name not in constants])
     solved: dict[str, Polynomial] = {}
     for name, value, _ in made:
         solved = {n: v.substitute({name: value}) for n, v in solved.items()} | {name: value}
@@ -153,7 +155,7 @@ def _parallel(equations: Sequence[Polynomial]) -> list[tuple[Polynomial, Polynom
     On the circles c1 = c2 u - s2 v, s1 = s2 u + c2 v with u = c1 c2 + s1 s2, v = s1 c2 - c1 s2,
     and u^2 + v^2 = 1.
     """
-    circles = [pair for p in equations if (pair := _unit_circle(p)) is not None]
+    circles = [(p.ring.gen(x), p.ring.gen(y)) for p in equations for x, y in unit_circles([p])]
     for p in equations:
         if len(p) != 2 or p.total_degree != 2:
             continue
@@ -165,11 +167,3 @@ def _parallel(equations: Sequence[Polynomial]) -> list[tuple[Polynomial, Polynom
                     if (x1 * v - y1 * u).primitive() == p.primitive():
                         return [(x1 - u, y1 - v), (x1 + u, y1 + v)]
     return []
-
-
-def _unit_circle(p: Polynomial) -> tuple[Polynomial, Polynomial] | None:
-    """The two variables of x^2 + y^2 - 1."""
-    if len(p) != 3 or p.total_degree != 2 or len(p.variables) != 2:
-        return None
-    x, y = (p.ring.gen(name) for name in p.variables)
-    return (x, y) if p.primitive() == (x**2 + y**2 - 1).primitive() else None

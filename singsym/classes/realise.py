@@ -7,11 +7,13 @@ Hauenstein, Sottile, ACM Trans. Math. Softw. 38 (2012) 28.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 
 from flint import arb
 
-from singsym.classes.explore import Found
+from singsym.classes.explore import Found, restricted
+from singsym.classes.patches import unsplit
 from singsym.classes.result import Configuration, Equations, Piece
 from singsym.classes.strata import Stratum
 from singsym.classes.symmetry import image
@@ -19,7 +21,9 @@ from singsym.elimination.budget import Budget, Undecided, current
 from singsym.elimination.verdict import Verdict
 from singsym.kinematics.placement import Coordinates, JointValue
 from singsym.varieties.real.box import BoxPoint
+from singsym.varieties.real.cartesian import Cartesian
 from singsym.varieties.real.curve import real_curve
+from singsym.varieties.real.cuts import dimension_by_cuts
 from singsym.varieties.real.dimension import component_dimension, independent, real_dimension
 from singsym.varieties.real.intervals import at_precision, evaluate
 from singsym.varieties.real.points import RealPoint
@@ -149,19 +153,37 @@ def _given(piece: Piece, system: RealSystem, elsewhere: tuple[Equations, ...]) -
     """A set given by equations: where their gradients are independent at a point, a manifold near it."""
     dimension = len(system.ring.names) - len(system.closed_equations)
     if dimension <= 0:
-        try:
+        with suppress(NotZeroDimensional):
             return _finite(piece, real_points(piece.basis), system, elsewhere)
-        except NotZeroDimensional:
-            return _positive(piece, real_dimension(system))
     witness = find_witness(system, tries=SEARCHES)
-    if witness is None:
-        return _positive(piece, real_dimension(system))
-    if independent(system.closed_equations, witness.point):
+    if witness is not None and independent(system.closed_equations, witness.point):
         return _positive(piece, (dimension, witness))
+    return _dependent(piece, system, witness)
+
+
+def _dependent(piece: Piece, system: RealSystem, witness: Witness | None) -> tuple[Piece, Points]:
+    """A set given by dependent equations: its dimension by cuts, else by its components."""
+    patch = unsplit(system.closed_equations, system.ring)
+    chart = Cartesian.of(restricted(system, patch))
+    try:
+        with current().part(DIMENSION_SECONDS):
+            cut = dimension_by_cuts(chart.system)
+    except Undecided:
+        current().check("the dimension of a set")
+        return _positive(piece, real_dimension(system))
+    if cut.dimension < 0:
+        verdict = Verdict.no(cut.certainty, reason="there is no complex solution")
+        return replace(piece, verdict=verdict, dimension=-1), ()
+    dimension = cut.dimension - len(patch.solved) - chart.left_out
+    if witness is not None and cut.point is not None and chart.faithful:
+        return _positive(piece, (dimension, witness))
+    piece = replace(piece, at_most=dimension)
     try:
         with current().part(DIMENSION_SECONDS):
             return _positive(piece, real_dimension(system))
     except Undecided as reason:
+        if witness is None:
+            return replace(piece, verdict=Verdict.undecided(str(reason))), ()
         found, points = _positive(piece, (0, witness))
         verdict = replace(found.verdict, reason=f"its dimension is not known: {reason}")
         return replace(found, verdict=verdict, dimension=None), points

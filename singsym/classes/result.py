@@ -53,6 +53,7 @@ class Piece:
     path: the factors and minors set to zero on the way here, as they are printed.
     basis: generators of the ideal of the piece, loop equations included.
     dimension: the real dimension, -1 when empty, None where undecided.
+    at_most: a bound of the dimension, where that itself is not known.
     points: the number of real points of a finite piece; components: connected components where known.
     """
 
@@ -65,6 +66,7 @@ class Piece:
     points: int | None = None
     components: int | None = None
     witnesses: tuple[Configuration, ...] = ()
+    at_most: int | None = None
 
     @property
     def provisional(self) -> bool:

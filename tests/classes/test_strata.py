@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from dataclasses import replace
-
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -32,8 +30,8 @@ x, y = R.gens
 
 def ground(*equations: Polynomial) -> Ground:
     (component,) = decompose(equations, ring=R)
-    everywhere = RealSystem(R, ())
-    return Ground(Patch(R, {}, component.generators), numerical_points(replace(everywhere, equations=equations)), component)
+    points = numerical_points(RealSystem(R, equations))
+    return Ground(Patch(R, {}, component.generators), points, component)
 
 
 def rank(matrix: PolynomialMatrix, where: Ground) -> BlockRank:

@@ -55,7 +55,7 @@ def _pairs_reduce(basis: list[fmpz_mpoly], vector: fmpz_mpoly_vec, engine: str) 
     start = time.monotonic()
     for done, (i, j) in enumerate(pairs):
         passed = time.monotonic() - start
-        if passed > _PAIR_SECONDS or (passed > _PAIR_SECONDS / 5 and passed * len(pairs) > _PAIR_SECONDS * done):
+        if passed > _PAIR_SECONDS / 5 and passed * len(pairs) > _PAIR_SECONDS * done:
             return False
         if not any(map(min, leading[i], leading[j])) or _chained(leading, i, j):
             continue

@@ -8,7 +8,7 @@ Source: singsym's own; the map is a quotient by the reflection (c, s, q) -> (-c,
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -17,6 +17,7 @@ from singsym.elimination.budget import Undecided, current
 from singsym.elimination.ideal import Ideal
 from singsym.kinematics.nonzero import remainder
 from singsym.polynomials import Polynomial, Ring
+from singsym.varieties.circles import Pair, circle, unit_circles
 from singsym.varieties.real.sampling import is_off, numerical_points
 from singsym.varieties.real.witness import RealSystem
 from singsym.varieties.splitting import linear_substitution, used_ring
@@ -32,12 +33,13 @@ Group = tuple[Polynomial, ...]
 class Cartesian:
     """A system in the same ring with other meanings of some variables, or as it was where that is simpler.
 
-    Its real points are the images of those of the given system.  An exclusion of several polynomials is that
-    of the zeros of the sum of their squares where this is short.
+    Its real points are the images of those of the given system; where not `faithful`, there may be more.  An
+    exclusion of several polynomials is that of the zeros of the sum of their squares where this is short.
     """
 
     system: RealSystem
     vectors: tuple[_Vector, ...] = ()
+    faithful: bool = True
 
     @classmethod
     def of(cls, system: RealSystem) -> Cartesian:
@@ -55,17 +57,18 @@ class Cartesian:
         return found
 
     def _simpler(self) -> Cartesian | None:
-        used = [vector.circle for vector in self.vectors]
+        used = [vector.pair for vector in self.vectors]
         best, size = None, _size(self.system)
-        for circle in _circles(self.system.equations):
-            if circle in used:
+        for pair in unit_circles(self.system.equations):
+            if pair in used:
                 continue
             for length in (group[0] for group in self.system.exclusions if len(group) == 1):
-                vector = _Vector.of(circle, length, self.system)
+                vector = _Vector.of(pair, length, self.system)
                 if vector is not None:
                     changed = vector.applied(self.system)
                     if _size(changed) < size:
-                        best, size = Cartesian(changed, (*self.vectors, vector)), _size(changed)
+                        faithful = self.faithful and vector.keeps(self.system.exclusions)
+                        best, size = Cartesian(changed, (*self.vectors, vector), faithful), _size(changed)
         return best
 
     def moved(self, polynomial: Polynomial) -> Group:
@@ -132,6 +135,11 @@ class Cartesian:
         )
 
     @property
+    def left_out(self) -> int:
+        """How many lengths are left out; their variables are in no equation any more."""
+        return sum(vector.relation is not None for vector in self.vectors)
+
+    @property
     def trimmed(self) -> RealSystem:
         """A projection to fewer coordinates: those left out are in one equation only, squared.
 
@@ -154,7 +162,7 @@ class Cartesian:
                 equations.append(p)
             elif not rest.is_constant or rest.constant < 0:
                 nonnegative.append(rest)
-        kept = (*equations, *nonnegative, *system.positive, *(g for g, in exclusions))
+        kept = (*equations, *nonnegative, *system.positive, *(g for (g,) in exclusions))
         ring = used_ring(system.ring, (*kept, *system.ring.relations))
         convert = ring.convert
         return RealSystem(
@@ -195,8 +203,8 @@ def _short_exclusions(system: RealSystem) -> tuple[Group, ...]:
         total = group[0] if group else system.ring.zero
         if len(group) > 1 and sum(map(len, group)) <= LONGEST_SUM:
             total = sum((g * g for g in group), start=system.ring.zero)
-            for circle in _circles(system.equations):
-                total = remainder(total, _circle(system.ring, circle), circle[1])
+            for pair in unit_circles(system.equations):
+                total = remainder(total, circle(system.ring, pair), pair[1])
         if total and len(total) <= LONGEST_SUM and (len(group) == 1 or total is not group[0]):
             groups += [(factor,) for factor, _ in total.factors()]
         else:
@@ -210,41 +218,28 @@ def _open(groups: Iterable[Group], ring: Ring) -> tuple[Group, ...]:
     return tuple(dict.fromkeys(g for g in kept if not any(p.is_constant and p for p in g)))
 
 
-def _circle(ring: Ring, names: tuple[str, ...]) -> Polynomial:
-    x, y = map(ring.gen, names)
-    return x * x + y * y - 1
-
-
-def _circles(equations: Iterable[Polynomial]) -> Iterator[tuple[str, ...]]:
-    """Pairs of variables whose squares have the sum 1."""
-    for p in equations:
-        if len(p) == 3 and p.total_degree == 2 and len(p.variables) == 2:
-            if p.primitive() == _circle(p.ring, p.variables):
-                yield p.variables
-
-
 @dataclass(frozen=True)
 class _Vector:
-    """New meanings: of `length`, that of the vector; of `circle`, the unit vector times the length.
+    """New meanings: of `length`, that of the vector; of `pair`, the unit vector times the length.
 
     put: the former variable in terms of the length; relation: length^2 + w^2 - 1 where the length is left
     out by it.
     """
 
-    circle: tuple[str, ...]
+    pair: Pair
     length: str
     put: Polynomial
     relation: Polynomial | None = None
 
     @classmethod
-    def of(cls, circle: tuple[str, ...], length: Polynomial, system: RealSystem) -> _Vector | None:
-        if set(circle) & set(length.variables) or (solved := linear_substitution((length,))) is None:
+    def of(cls, pair: Pair, length: Polynomial, system: RealSystem) -> _Vector | None:
+        if set(pair) & set(length.variables) or (solved := linear_substitution((length,))) is None:
             return None
         lead = length.coefficient(solved.name, 1).constant
-        vector = cls(circle, solved.name, solved.value + length.ring.gen(solved.name) / lead)
+        vector = cls(pair, solved.name, solved.value + length.ring.gen(solved.name) / lead)
         changed = [vector._changed(p) for p in system.equations]
-        for pair in (pair for pair in _circles(changed) if vector.length in pair):
-            short = replace(vector, relation=_circle(length.ring, pair))
+        for other in (other for other in unit_circles(changed) if vector.length in other):
+            short = replace(vector, relation=circle(length.ring, other))
             signs = (vector._changed(p, even=True) for p in (*system.positive, *system.nonnegative))
             if all(len(short.parts(p)) <= 1 for p in system.equations) and not any(
                 vector.length in short._reduced(p).variables for p in signs
@@ -269,8 +264,12 @@ class _Vector:
             nonnegative,
         )
 
+    def keeps(self, groups: Iterable[Group]) -> bool:
+        """Whether exclusions are the same for both vectors of a length that is left out."""
+        return all(len(self.parts(g)) <= 1 for group in groups for g in group)
+
     def parts(self, p: Polynomial) -> Group:
-        """The polynomial in the new variables; in two parts where it holds odd powers of a length left out."""
+        """The polynomial in the new variables; two parts where it holds odd powers of a length left out."""
         changed = self._reduced(self._changed(p))
         if not changed:
             return ()
@@ -285,7 +284,7 @@ class _Vector:
     def _changed(self, p: Polynomial, even: bool = False) -> Polynomial:
         """The polynomial times a power of the length, in the new variables; an even power where asked for."""
         ring = p.ring
-        k, pair = ring.index(self.length), tuple(map(ring.index, self.circle))
+        k, pair = ring.index(self.length), tuple(map(ring.index, self.pair))
         p = p.substitute({self.length: self.put})
         if p.is_zero:
             return p

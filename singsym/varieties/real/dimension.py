@@ -39,7 +39,7 @@ def local_dimension(point: RealPoint | BoxPoint | Witness, ideal: Ideal) -> int 
     """
     place = point.point if isinstance(point, Witness) else point
     codimension = len(ideal.ring.names) - ideal.dimension
-    return ideal.dimension if _has_rank(ideal.generators, place, codimension) else None
+    return ideal.dimension if has_rank(ideal.generators, place, codimension) else None
 
 
 def independent(equations: Sequence[Polynomial], point: RealPoint | BoxPoint) -> bool:
@@ -55,10 +55,11 @@ def independent(equations: Sequence[Polynomial], point: RealPoint | BoxPoint) ->
     >>> [independent((f,), frozen_points(R, (f,), {"x": Fraction(0)})[0]) for f in (x**2 + y**2 - 1, y**2)]
     [True, False]
     """
-    return _has_rank(equations, point, len(equations))
+    return has_rank(equations, point, len(equations))
 
 
-def _has_rank(equations: Sequence[Polynomial], point: RealPoint | BoxPoint, rank: int) -> bool:
+def has_rank(equations: Sequence[Polynomial], point: RealPoint | BoxPoint, rank: int) -> bool:
+    """Whether so many gradients of the equations are certified to be independent at a point."""
     if not equations:
         return rank == 0
     slopes = jacobian(equations, equations[0].ring.names)

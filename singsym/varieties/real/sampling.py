@@ -9,7 +9,7 @@ from singsym.polynomials import Polynomial
 from singsym.varieties.real.witness import RealSystem
 
 NEAR = 1e-3
-"""Values of exclusions below it, for coefficients of size 1, are taken for zero: as at a root fourfold or so."""
+"""Smaller values of exclusions with coefficients of size 1 are taken for zero: as at a fourfold root."""
 STARTS = 60
 """Random starts for numerical points of a set."""
 Points = tuple[tuple[float, ...], ...]

@@ -17,6 +17,7 @@ from singsym.elimination.budget import Budget, BudgetExceeded, Undecided, curren
 from singsym.elimination.engines import EngineFailure
 from singsym.elimination.verdict import Certainty
 from singsym.polynomials import Polynomial, Ring
+from singsym.varieties.circles import unit_circles
 from singsym.varieties.real.box import BoxPoint, boxed_point
 from singsym.varieties.real.points import RealPoint
 from singsym.varieties.real.zerodim import NotZeroDimensional, real_points
@@ -134,9 +135,9 @@ def find_witness(
     equations = system.closed_equations
     if any(f.is_constant for f in equations):
         return None
-    for sample in _samples(system, equations, seed, tries):
+    for sample in samples(system, equations, seed, tries):
         budget.check("the search for a real point")
-        for values in _frozen_values(system, equations, sample, dimension):
+        for values in frozen_values(system, equations, sample, dimension):
             budget.check("the search for a real point")
             found = _certified(system, equations, values, sample, budget)
             if found is not None:
@@ -147,7 +148,7 @@ def find_witness(
 # -- numerical samples -------------------------------------------------------------------------------
 
 
-def _samples(system: RealSystem, equations: Sequence[Polynomial], seed: int, tries: int) -> Iterator[Vector]:
+def samples(system: RealSystem, equations: Sequence[Polynomial], seed: int, tries: int) -> Iterator[Vector]:
     """Numerical points of the system; inequalities enter with slack variables p = s^2."""
     import numpy as np
 
@@ -177,10 +178,13 @@ def _samples(system: RealSystem, equations: Sequence[Polynomial], seed: int, tri
             yield x
 
 
-def _frozen_values(
+def frozen_values(
     system: RealSystem, equations: Sequence[Polynomial], sample: Vector, dimension: int | None
 ) -> Iterator[dict[str, Fraction]]:
-    """Rationals for as many coordinates as leave finitely many points, coarse ones first."""
+    """Rationals for as many coordinates as leave finitely many points, coarse ones first.
+
+    A coordinate of a unit vector is held with the other one, at a rational point of the circle.
+    """
     from singsym.varieties.real.search import Compiled, dependent_columns, gauss_newton, numerical_rank
 
     ring = system.ring
@@ -189,15 +193,37 @@ def _frozen_values(
     rank = numerical_rank(slope) if dimension is None else len(ring.names) - dimension
     dependent = dependent_columns(slope, rank, [ring.index(c.name) for c in ring.constants])
     free = [k for k in range(len(ring.names)) if k not in dependent]
+    circles = [pair for pair in unit_circles(equations) if any(ring.index(name) in free for name in pair)]
     seen: set[tuple[Fraction, ...]] = set()
     for denominator in _DENOMINATORS:
-        values = tuple(Fraction(round(float(sample[k]) * denominator), denominator) for k in free)
-        if values in seen:
+        values = {ring.names[k]: _rounded(float(sample[k]), denominator) for k in free}
+        for pair in circles:
+            c, s = (float(sample[ring.index(name)]) for name in pair)
+            values |= dict(zip(pair, _on_circle(c, s, denominator), strict=True))
+        if tuple(values.values()) in seen:
             continue
-        seen.add(values)
-        rest = _Restricted(compiled, sample, free, dependent, values)
-        if gauss_newton(rest, sample[dependent]) is not None:
-            yield {ring.names[k]: v for k, v in zip(free, values, strict=True)}
+        seen.add(tuple(values.values()))
+        held = [ring.index(name) for name in values]
+        others = [k for k in range(len(ring.names)) if k not in held]
+        rest = _Restricted(compiled, sample, held, others, tuple(values.values()))
+        if gauss_newton(rest, sample[others]) is not None:
+            yield values
+
+
+def _rounded(number: float, denominator: int) -> Fraction:
+    return Fraction(round(number * denominator), denominator)
+
+
+def _on_circle(c: float, s: float, denominator: int) -> tuple[Fraction, Fraction]:
+    """A rational point of the unit circle near another, by the tangent of half the angle.
+
+    >>> _on_circle(0.6, 0.8, 2)
+    (Fraction(3, 5), Fraction(4, 5))
+    """
+    # the angle from the nearer end of the diameter
+    end = 1 if c >= 0 else -1
+    t = _rounded(s / (1 + abs(c)), denominator)
+    return end * (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)
 
 
 class _Restricted:
@@ -235,8 +261,9 @@ def _certified(
 ) -> RealPoint | BoxPoint | None:
     """An exact point with the frozen values, nearest to the sample; a box for a large square system."""
     ring = system.ring
-    if _bezout(equations, values) > _FEW_SOLUTIONS and len(equations) == len(ring.names) - len(values):
-        return _certified_box(system, equations, values, sample)
+    left = [f for f in equations if f.substitute(dict(values))]
+    if _bezout(left, values) > _FEW_SOLUTIONS and len(left) == len(ring.names) - len(values):
+        return _certified_box(system, left, values, sample)
     try:
         points = frozen_points(ring, equations, values, budget.part(_SOLVE_SECONDS))
     except NotZeroDimensional:
