@@ -6,7 +6,7 @@ Source: Zlatanov, Fenton, Benhabib (1998), section 3: conditions (4), (5) and th
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from concurrent.futures import Executor
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
@@ -32,6 +32,8 @@ from singsym.polynomials import Polynomial
 from singsym.varieties.real.witness import RealSystem
 
 MEMBERSHIP_SECONDS = 5.0
+SHORT_SECONDS = 5.0
+"""So long each stratum is looked at before it is known whether more time is worth while."""
 
 
 @dataclass(frozen=True)
@@ -136,12 +138,7 @@ class _Work:
             memory_mb=self.limits.memory_mb,
         )
         explored = search(root, self.runner, self._singular_loci(), Budget(self.limits.total))
-        tasks = [
-            RealTask(found, self.feasible, self.names, self.limits.seconds, self.limits.memory_mb)
-            for found in explored.found
-        ]
-        realised = self.runner.map(realise, tasks, "real points")
-        pieces = [piece for found in realised for piece in found.pieces]
+        pieces = self._pieces(explored.found)
         loci = self._loci(explored, pieces)
         classes = self._classes(explored, pieces, loci)
         return Classification(
@@ -154,6 +151,23 @@ class _Work:
             tuple(name for name in engines.allowed() if engines.has(name)),
             time.monotonic() - started,
         )
+
+    def _pieces(self, found: Sequence[Found]) -> list[Piece]:
+        """The real pieces of all strata; only what may change the answer for its class gets much time."""
+        limits = self.limits
+        quick = SHORT_SECONDS if limits.seconds is None else min(SHORT_SECONDS, limits.seconds)
+        tasks = [RealTask(f, self.feasible, self.names, quick, limits.memory_mb) for f in found]
+        realised = self.runner.map(realise, tasks, "real points")
+        known = _dimensions(piece for part in realised for piece in part.pieces)
+        doubtful = [
+            i
+            for i, part in enumerate(realised)
+            if any(_in_doubt(p, known.get(p.defects.types)) for p in part.pieces)
+        ]
+        again = [replace(tasks[i], seconds=limits.seconds) for i in doubtful]
+        for i, part in zip(doubtful, self.runner.map(realise, again, "real points, at length"), strict=True):
+            realised[i] = part
+        return [piece for part in realised for piece in part.pieces]
 
     def _singular_loci(self) -> SingularLoci | None:
         """The alternatives of (4), (5), (iii) and (vi), where they are known and not everything."""
@@ -331,6 +345,16 @@ def _with_components(locus: Locus, counted: Counted) -> Locus:
     if counted.components is None:
         verdict = replace(verdict, reason=f"components not counted: {counted.reason}")
     return replace(locus, components=counted.components, verdict=verdict)
+
+
+def _dimensions(pieces: Iterable[Piece]) -> dict[SingularityType, int]:
+    """The largest known dimension of pieces of each class."""
+    found: dict[SingularityType, int] = {}
+    for piece in pieces:
+        if piece.verdict.is_yes and piece.dimension is not None:
+            types = piece.defects.types
+            found[types] = max(piece.dimension, found.get(types, 0))
+    return found
 
 
 def _in_doubt(piece: Piece, known: int | None) -> bool:

@@ -18,15 +18,17 @@ from singsym.classes.result import Configuration, Equations, Piece
 from singsym.classes.strata import Stratum
 from singsym.classes.symmetry import image
 from singsym.elimination.budget import Budget, Undecided, current
+from singsym.elimination.ideal import Ideal
 from singsym.elimination.verdict import Verdict
 from singsym.kinematics.placement import Coordinates, JointValue
 from singsym.varieties.real.box import BoxPoint
 from singsym.varieties.real.cartesian import Cartesian
 from singsym.varieties.real.curve import real_curve
-from singsym.varieties.real.cuts import dimension_by_cuts
+from singsym.varieties.real.cuts import Cut, dimension_by_cuts
 from singsym.varieties.real.dimension import component_dimension, independent, real_dimension
 from singsym.varieties.real.intervals import at_precision, evaluate
 from singsym.varieties.real.points import RealPoint
+from singsym.varieties.real.sampling import numerical_codimension
 from singsym.varieties.real.witness import RealSystem, Witness, find_witness
 from singsym.varieties.real.zerodim import NotZeroDimensional, real_points
 
@@ -155,38 +157,42 @@ def _given(piece: Piece, system: RealSystem, elsewhere: tuple[Equations, ...]) -
     if dimension <= 0:
         with suppress(NotZeroDimensional):
             return _finite(piece, real_points(piece.basis), system, elsewhere)
-    witness = find_witness(system, tries=SEARCHES)
-    if witness is not None and independent(system.closed_equations, witness.point):
-        return _positive(piece, (dimension, witness))
-    return _dependent(piece, system, witness)
+    if numerical_codimension(system) in (None, len(system.closed_equations)):
+        witness = find_witness(system, tries=SEARCHES)
+        if witness is not None and independent(system.closed_equations, witness.point):
+            return _positive(piece, (dimension, witness))
+    return _dependent(piece, system)
 
 
-def _dependent(piece: Piece, system: RealSystem, witness: Witness | None) -> tuple[Piece, Points]:
+def _dependent(piece: Piece, system: RealSystem) -> tuple[Piece, Points]:
     """A set given by dependent equations: its dimension by cuts, else by its components."""
     patch = unsplit(system.closed_equations, system.ring)
     chart = Cartesian.of(restricted(system, patch))
+    beside = len(patch.solved) + chart.left_out
+    try:
+        bound = Ideal(system.ring, chart.system.closed_equations).dimension - beside
+        piece = replace(piece, at_most=bound)
+        cut = _cut(chart.system)
+        if cut is not None and cut.dimension < 0:
+            verdict = Verdict.no(cut.certainty, reason="there is no complex solution")
+            return replace(piece, verdict=verdict, dimension=-1), ()
+        if cut is not None and cut.point is not None and chart.faithful:
+            witness = find_witness(system, tries=SEARCHES)
+            if witness is not None:
+                return _positive(piece, (cut.dimension - beside, witness))
+        return _positive(piece, real_dimension(system))
+    except Undecided as reason:
+        return replace(piece, verdict=Verdict.undecided(str(reason))), ()
+
+
+def _cut(system: RealSystem) -> Cut | None:
+    """The dimension by cuts where it is found in time."""
     try:
         with current().part(DIMENSION_SECONDS):
-            cut = dimension_by_cuts(chart.system)
+            return dimension_by_cuts(system)
     except Undecided:
         current().check("the dimension of a set")
-        return _positive(piece, real_dimension(system))
-    if cut.dimension < 0:
-        verdict = Verdict.no(cut.certainty, reason="there is no complex solution")
-        return replace(piece, verdict=verdict, dimension=-1), ()
-    dimension = cut.dimension - len(patch.solved) - chart.left_out
-    if witness is not None and cut.point is not None and chart.faithful:
-        return _positive(piece, (dimension, witness))
-    piece = replace(piece, at_most=dimension)
-    try:
-        with current().part(DIMENSION_SECONDS):
-            return _positive(piece, real_dimension(system))
-    except Undecided as reason:
-        if witness is None:
-            return replace(piece, verdict=Verdict.undecided(str(reason))), ()
-        found, points = _positive(piece, (0, witness))
-        verdict = replace(found.verdict, reason=f"its dimension is not known: {reason}")
-        return replace(found, verdict=verdict, dimension=None), points
+        return None
 
 
 def _lies_in(point: RealPoint, loci: tuple[Equations, ...]) -> bool:

@@ -49,6 +49,26 @@ def numerical_points(system: RealSystem, count: int = 3) -> Points:
     return tuple(found)
 
 
+def numerical_codimension(system: RealSystem) -> int | None:
+    """How many of the equations have independent gradients at a numerical point; None without a point.
+
+    >>> from singsym.polynomials import Ring
+    >>> R = Ring(("x", "y"))
+    >>> x, y = R.gens
+    >>> numerical_codimension(RealSystem(R, (x**2 + y**2 - 1, x**2 + y**2 - x - 1, x)))
+    2
+    """
+    import numpy
+
+    from singsym.varieties.real.search import Compiled, numerical_rank
+
+    points = numerical_points(system, 1)
+    if not points:
+        return None
+    _, slope = Compiled(system.closed_equations, system.ring)(numpy.array(points[0]))
+    return numerical_rank(slope)
+
+
 def is_off(point: tuple[float, ...], group: tuple[Polynomial, ...]) -> bool:
     """Whether some polynomial is not small at a point."""
     return any(is_large(g, (point,), NEAR) for g in group)
