@@ -74,7 +74,10 @@ def _is_off(point: RealPoint | BoxPoint, group: Sequence[Polynomial]) -> bool:
 
 @dataclass(frozen=True)
 class Witness:
-    """A certified real point of a system, with the coordinates that were frozen at rationals to find it."""
+    """A certified real point of a system, with the coordinates that were frozen at rationals to find it.
+
+    Both coordinates of a unit vector are frozen together.
+    """
 
     point: RealPoint | BoxPoint
     frozen: tuple[str, ...] = ()
