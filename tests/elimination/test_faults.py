@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import signal
 import stat
@@ -62,8 +63,9 @@ def kill_when_busy(find: object, times: int = 1) -> threading.Thread:
             pid = find()
             if pid and pid not in killed:
                 time.sleep(0.2)
-                os.kill(pid, signal.SIGKILL)
-                killed.add(pid)
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(pid, signal.SIGKILL)
+                    killed.add(pid)
             time.sleep(0.01)
 
     thread = threading.Thread(target=hunt, daemon=True)
