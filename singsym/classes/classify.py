@@ -24,7 +24,7 @@ from singsym.elimination import engines
 from singsym.elimination.budget import Budget, Undecided
 from singsym.elimination.conditions import Conditions, Factor, conditions, polynomial_latex
 from singsym.elimination.ideal import Ideal
-from singsym.elimination.verdict import Verdict
+from singsym.elimination.verdict import Verdict, weakest
 from singsym.kinematics.reduction import reduce
 from singsym.kinematics.velocity import VelocityEquation, velocity_equation
 from singsym.mechanism.model import Mechanism
@@ -279,8 +279,11 @@ class _Work:
             steps = (found_in(candidate.types),)
         else:
             ruled_out = [p.verdict.reason for p in own]
+            certainty = weakest(*(p.verdict.certainty for p in own))
+            if candidate.types not in explored.evident:
+                certainty = weakest(certainty, explored.certainty)
             reason = "; ".join(dict.fromkeys(ruled_out)) or "no stratum of the four ranks has these types"
-            verdict = Verdict.no(reason=reason)
+            verdict = Verdict.no(certainty, reason=reason)
             steps = (excluded_in(candidate.types, occurring),)
         points = _counted(present) if dimension == 0 and not doubts else None
         return ClassResult(

@@ -16,6 +16,7 @@ from singsym.classes.symmetry import IDENTITY, Reflection, compose, image, keeps
 from singsym.classes.types import Defects, SingularityType
 from singsym.classes.work import Runner
 from singsym.elimination.budget import Budget, Undecided, current
+from singsym.elimination.verdict import Certainty, certainties, weakest
 from singsym.polynomials import Polynomial
 from singsym.varieties.decomposition import Component, decompose
 from singsym.varieties.real.cartesian import Cartesian
@@ -101,11 +102,15 @@ class Found:
 
 @dataclass(frozen=True)
 class Explored:
-    """The strata of a branch, the parts of it left to search, and the reasons where there are none yet."""
+    """The strata of a branch, the parts of it left to search, and the reasons where there are none yet.
+
+    certainty: how all this is known.
+    """
 
     found: tuple[Found, ...] = ()
     following: tuple[Branch, ...] = ()
     undecided: tuple[str, ...] = ()
+    certainty: Certainty = "proven"
 
     @property
     def provisional(self) -> bool:
@@ -117,12 +122,14 @@ class Explored:
 class Exploration:
     """All strata, and the branches that ended without an answer, with their reasons.
 
-    evident: types whose strata are all there, whatever is unexplored.
+    evident: types whose strata are all there, whatever is unexplored; certainty: how the others are known to
+        be all.
     """
 
     found: tuple[Found, ...]
     unexplored: tuple[tuple[Branch, str], ...]
     evident: tuple[SingularityType, ...] = ()
+    certainty: Certainty = "proven"
 
     def doubts(self, types: SingularityType) -> tuple[str, ...]:
         """Why there may be more configurations of these types than were found."""
@@ -136,6 +143,12 @@ def explore(branch: Branch) -> Explored:
 
     Parts without a feasible real point are left out.
     """
+    with certainties() as seen:
+        found = _explored(branch)
+    return replace(found, certainty=weakest(*seen))
+
+
+def _explored(branch: Branch) -> Explored:
     work = _Exploring(branch)
     try:
         with Budget(branch.seconds, branch.memory_mb):
@@ -302,6 +315,7 @@ def search(
     evident = frontier[0].evident if frontier else ()
     whole = budget or Budget()
     unexplored: list[tuple[Branch, str]] = []
+    certainty: Certainty = "proven"
     level = 0
     while frontier:
         level += 1
@@ -311,11 +325,12 @@ def search(
             if explored is None:
                 unexplored.append((branch, f"the budget of {whole.seconds:g} s for the search is used up"))
                 continue
+            certainty = weakest(certainty, explored.certainty)
             unexplored += [(branch, reason) for reason in explored.undecided]
             found += explored.found
             following += explored.following
         frontier = following
-    return Exploration(tuple(found), tuple(unexplored), evident)
+    return Exploration(tuple(found), tuple(unexplored), evident, certainty)
 
 
 def _started(root: Branch, singular: SingularLoci) -> tuple[list[Found], list[Branch]]:

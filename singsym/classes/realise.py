@@ -19,7 +19,7 @@ from singsym.classes.strata import Stratum
 from singsym.classes.symmetry import image
 from singsym.elimination.budget import Budget, Undecided, current
 from singsym.elimination.ideal import Ideal
-from singsym.elimination.verdict import Verdict
+from singsym.elimination.verdict import Verdict, certainties, weakest
 from singsym.kinematics.placement import Coordinates, JointValue
 from singsym.varieties.real.box import BoxPoint
 from singsym.varieties.real.cartesian import Cartesian
@@ -112,8 +112,11 @@ def realise(task: RealTask) -> Realised:
     system = replace(task.feasible, equations=stratum.equations, exclusions=exclusions)
     points: Points = ()
     try:
-        with Budget(task.seconds, task.memory_mb):
+        with Budget(task.seconds, task.memory_mb), certainties() as seen:
             piece, points = _realised(piece, system, stratum)
+        if piece.verdict.is_no:
+            verdict = replace(piece.verdict, certainty=weakest(piece.verdict.certainty, *seen))
+            piece = replace(piece, verdict=verdict)
     except Undecided as reason:
         piece = replace(piece, verdict=Verdict.undecided(str(reason)))
     return Realised(tuple(_images(piece, points, task)))

@@ -12,11 +12,12 @@ from threading import Lock
 from typing import Any, TypeVar
 
 from singsym.elimination import engines
+from singsym.elimination.verdict import Certainty, certainties, note, weakest
 
 Value = TypeVar("Value")
 
 _LIMIT = 20_000
-_known: OrderedDict[Hashable, Any] = OrderedDict()
+_known: OrderedDict[Hashable, tuple[Any, Certainty]] = OrderedDict()
 _lock = Lock()
 
 
@@ -33,26 +34,27 @@ if hasattr(os, "register_at_fork"):
 def remember(question: str, key: Hashable, compute: Callable[[], Value]) -> Value:
     """The value computed before for this question and key with the engines allowed now, or a new one.
 
+    How the value is known is remembered with it, see `verdict.certainties`.
+
     >>> remember("a doctest", 2, lambda: 4), remember("a doctest", 2, lambda: 5)
     (4, 4)
     """
     full = (question, key, engines.allowed())
     with _lock:
-        if full in _known:
+        known = _known.get(full)
+        if known is not None:
             _known.move_to_end(full)
-            value: Value = _known[full]
-            return value
-    value = compute()
-    store(question, key, value)
+    if known is None:
+        with certainties() as seen:
+            known = compute(), weakest(*seen)
+        with _lock:
+            _known[full] = known
+            if len(_known) > _LIMIT:
+                _known.popitem(last=False)
+    else:
+        note(known[1])
+    value: Value = known[0]
     return value
-
-
-def store(question: str, key: Hashable, value: Any) -> None:
-    """Remember a value found on the way to another one."""
-    with _lock:
-        _known[question, key, engines.allowed()] = value
-        if len(_known) > _LIMIT:
-            _known.popitem(last=False)
 
 
 def is_known(question: str, key: Hashable) -> bool:

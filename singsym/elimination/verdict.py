@@ -5,6 +5,9 @@ Source: the contract between numerics and proofs; numerics may find, they never 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any, Literal
@@ -20,6 +23,35 @@ def weakest(*certainties: Certainty) -> Certainty:
     """
     order: tuple[Certainty, ...] = ("proven", "certified", "modular", "undecided")
     return max(certainties, key=order.index, default="proven")
+
+
+_seen: ContextVar[list[Certainty] | None] = ContextVar("certainties", default=None)
+
+
+@contextmanager
+def certainties() -> Iterator[list[Certainty]]:
+    """A list of how everything is known that engines, or results remembered of theirs, answer inside.
+
+    >>> with certainties() as seen:
+    ...     note("modular")
+    >>> seen
+    ['modular']
+    """
+    outer, seen = _seen.get(), list[Certainty]()
+    token = _seen.set(seen)
+    try:
+        yield seen
+    finally:
+        _seen.reset(token)
+        if outer is not None:
+            outer.extend(seen)
+
+
+def note(certainty: Certainty) -> None:
+    """Add to the innermost list of `certainties`, and so to those around it."""
+    seen = _seen.get()
+    if seen is not None and certainty not in seen:
+        seen.append(certainty)
 
 
 class Answer(StrEnum):

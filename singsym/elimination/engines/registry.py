@@ -30,6 +30,7 @@ from singsym.elimination.engines.flint_engine import FlintEngine
 from singsym.elimination.engines.msolve import MsolveEngine
 from singsym.elimination.engines.singular import SingularEngine
 from singsym.elimination.engines.sympy_engine import SympyEngine
+from singsym.elimination.verdict import note
 
 log = logging.getLogger("singsym")
 
@@ -101,14 +102,21 @@ def solve(task: Task, budget: Budget | None = None) -> EngineAnswer:
     for engine in candidates:
         patience = _patience(task, engine, candidates, budget.remaining())
         if (answer := _attempt(engine, task, patience, budget, failures)) is not None:
-            return answer
+            return _noted(task, answer)
     # engines that broke down give FLINT back the time that it was refused before
     broken = any(isinstance(failure, EngineFailure) for failure in failures)
     if broken and flint in candidates[:-1]:
         answer = _attempt(flint, task, None if budget.deadline else _LAST_PATIENCE, budget, failures)
         if answer is not None:
-            return answer
+            return _noted(task, answer)
     raise EngineFailure(", ".join(e.name for e in candidates), "; ".join(map(str, failures)))
+
+
+def _noted(task: Task, answer: EngineAnswer) -> EngineAnswer:
+    """The answer, after `certainties` has heard how it is known; what holds modulo a prime is no matter."""
+    if not task.characteristic:
+        note(answer.certainty)
+    return answer
 
 
 def _attempt(

@@ -13,7 +13,7 @@ from flint import fmpz_poly
 
 from singsym.elimination.budget import Budget, Undecided, current
 from singsym.elimination.ideal import Ideal
-from singsym.elimination.verdict import Verdict
+from singsym.elimination.verdict import Verdict, certainties
 from singsym.polynomials import Polynomial
 from singsym.varieties.decomposition import Component, decompose
 from singsym.varieties.real.bounds import extreme_values, sign_within, solution_bounds
@@ -22,7 +22,7 @@ from singsym.varieties.real.points import RealPoint
 from singsym.varieties.real.roots import has_real_root
 from singsym.varieties.real.squares import sum_of_squares
 from singsym.varieties.real.witness import RealSystem, Witness, find_witness
-from singsym.varieties.real.zerodim import certainties, real_points
+from singsym.varieties.real.zerodim import real_points
 
 _SEARCH_SECONDS = 15.0
 

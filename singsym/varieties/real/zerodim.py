@@ -6,9 +6,7 @@ Source: Faugere et al. (1993) and Rouillier (1999), see quotient.py and parametr
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
-from contextvars import ContextVar
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import islice
 from math import lcm
@@ -24,7 +22,7 @@ from singsym.elimination.engines.msolve import RawParametrization
 from singsym.elimination.engines.registry import msolve
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.memo import is_known, remember
-from singsym.elimination.verdict import Certainty
+from singsym.elimination.verdict import note
 from singsym.polynomials import AlgebraicConstant, Polynomial, Ring
 from singsym.varieties.real.macaulay import quotient_algebra_over
 from singsym.varieties.real.parametrization import Parametrization, divides, parametrize, primes
@@ -38,15 +36,13 @@ from singsym.varieties.real.quotient import (
     reduced,
 )
 
-__all__ = ["NotZeroDimensional", "certainties", "pinned", "real_points", "solve"]
+__all__ = ["NotZeroDimensional", "pinned", "real_points", "solve"]
 
 # (polynomials, terms of each, bits of a coefficient) up to which FLINT computes a basis in this process
 _CAPS = (150, 500, 1500)
 
 # bits of arithmetic, some seconds, above which a "modular" answer is checked modulo primes only
 _EXACT_COST = 2e9
-
-_seen: ContextVar[list[Certainty] | None] = ContextVar("certainties", default=None)
 
 
 def real_points(
@@ -85,28 +81,8 @@ def solve(equations: Sequence[Polynomial], budget: Budget | None = None) -> Para
     if not system:
         raise NotZeroDimensional("only zero equations: the whole space")
     found = remember("points", (ring, frozenset(system)), lambda: _solve(ring, system, budget))
-    seen = _seen.get()
-    if seen is not None:
-        seen.append(found.certainty)
+    note(found.certainty)
     return found
-
-
-@contextmanager
-def certainties() -> Iterator[list[Certainty]]:
-    """A list of how each system solved inside is known to be solved completely.
-
-    >>> from singsym.polynomials import Ring
-    >>> with certainties() as seen:
-    ...     _ = real_points(Ring(("x",)).gens)
-    >>> seen
-    ['proven']
-    """
-    seen: list[Certainty] = []
-    token = _seen.set(seen)
-    try:
-        yield seen
-    finally:
-        _seen.reset(token)
 
 
 def _solve(ring: Ring, system: tuple[Polynomial, ...], budget: Budget) -> Parametrization:
