@@ -218,7 +218,7 @@ class _Work:
 
     def _locus(self, label: str, factor: Factor, explored: Exploration, pieces: Sequence[Piece]) -> Locus:
         """What the pieces on which this factor vanishes say of its zero set."""
-        inside = [p for p in pieces if p.dimension is not None and _vanishes(factor.polynomial, p)]
+        inside = _largest(factor.polynomial, pieces)
         doubts = [reason for branch, reason in explored.unexplored if factor.polynomial in branch.path]
         doubts += [p.verdict.reason for p in pieces if factor.polynomial in p.path and p.verdict.is_undecided]
         dimension = max((p.dimension for p in inside if p.dimension is not None), default=-1)
@@ -317,6 +317,17 @@ class _Work:
                 remark = f"every configuration is singular: {defects.types}"
             found.append(SpacePiece(piece.dimension, smooth, defects, piece.verdict, piece.basis, remark))
         return tuple(found)
+
+
+def _largest(polynomial: Polynomial, pieces: Sequence[Piece]) -> list[Piece]:
+    """The pieces of largest dimension on which a polynomial vanishes: all of them where they are points."""
+    known = [p for p in pieces if p.dimension is not None and p.dimension >= 0]
+    for piece in sorted(known, key=lambda p: (-(p.dimension or 0), polynomial not in p.path)):
+        if piece.dimension == 0:
+            return [p for p in known if p.dimension == 0 and _vanishes(polynomial, p)]
+        if _vanishes(polynomial, piece):
+            return [piece]
+    return []
 
 
 def _vanishes(polynomial: Polynomial, piece: Piece) -> bool:
