@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-from singsym.classes.classify import classify
+from singsym.classes.classify import Limits, classify
 from singsym.classes.result import Classification
 from singsym.mechanism.model import Mechanism
 
@@ -19,7 +19,7 @@ def classified() -> Callable[[Mechanism], Classification]:
     def find(mechanism: Mechanism) -> Classification:
         key = repr((mechanism.resolved.links, mechanism.joints, mechanism.inputs, mechanism.outputs))
         if key not in known:
-            known[key] = classify(mechanism, cache=False)
+            known[key] = classify(mechanism, limits=Limits(total=3000), cache=False)
         return known[key]
 
     return find
