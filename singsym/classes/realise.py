@@ -182,7 +182,11 @@ def _dependent(piece: Piece, system: RealSystem) -> tuple[Piece, Points]:
         if cut is not None and cut.point is not None and chart.faithful:
             witness = find_witness(system, tries=SEARCHES)
             if witness is not None:
-                return _positive(piece, (cut.dimension - beside, witness))
+                found, points = _positive(piece, (cut.dimension - beside, witness))
+                if cut.certainty == "modular":
+                    reason = "its dimension rests on a Groebner basis found modulo primes"
+                    found = replace(found, verdict=replace(found.verdict, reason=reason))
+                return found, points
         return _positive(piece, real_dimension(system))
     except Undecided as reason:
         return replace(piece, verdict=Verdict.undecided(str(reason))), ()
