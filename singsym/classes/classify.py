@@ -6,14 +6,15 @@ Source: Zlatanov, Fenton, Benhabib (1998), section 3: conditions (4), (5) and th
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from functools import cached_property
+from math import inf
 
 from singsym.classes.explore import Branch, Exploration, Found, Loci, SingularLoci, search
-from singsym.classes.realise import Counted, CurveTask, Names, RealTask, count, realise
+from singsym.classes.realise import Counted, CurveTask, Names, Realised, RealTask, count, realise
 from singsym.classes.result import Classification, ClassResult, Locus, Piece, SpacePiece
 from singsym.classes.steps import excluded_in, found_in
 from singsym.classes.strata import RankProblem, Stratum
@@ -34,6 +35,8 @@ from singsym.varieties.real.witness import RealSystem
 MEMBERSHIP_SECONDS = 5.0
 SHORT_SECONDS = 5.0
 """So long each stratum is looked at before it is known whether more time is worth while."""
+LONG_SECONDS = 15.0
+"""So long it is looked at where only the dimension of its class is in doubt."""
 
 
 @dataclass(frozen=True)
@@ -153,9 +156,13 @@ class _Work:
         )
 
     def _pieces(self, found: Sequence[Found]) -> list[Piece]:
-        """The real pieces of all strata; only what may change the answer for its class gets much time."""
+        """The real pieces of all strata; only what may change the answer for its class gets much time.
+
+        It gets least where the class is known to occur, and to be no curve nor points to be counted.
+        """
         limits = self.limits
-        quick = SHORT_SECONDS if limits.seconds is None else min(SHORT_SECONDS, limits.seconds)
+        whole = inf if limits.seconds is None else limits.seconds
+        quick = min(SHORT_SECONDS, whole)
         tasks = [RealTask(f, self.feasible, self.names, quick, limits.memory_mb) for f in found]
         realised = self.runner.map(realise, tasks, "real points")
         known = _dimensions(piece for part in realised for piece in part.pieces)
@@ -164,7 +171,13 @@ class _Work:
             for i, part in enumerate(realised)
             if any(_in_doubt(p, known.get(p.defects.types)) for p in part.pieces)
         ]
-        again = [replace(tasks[i], seconds=limits.seconds) for i in doubtful]
+        again = [
+            replace(
+                tasks[i],
+                seconds=min(LONG_SECONDS, whole) if _is_surface(realised[i], known) else limits.seconds,
+            )
+            for i in doubtful
+        ]
         for i, part in zip(doubtful, self.runner.map(realise, again, "real points, at length"), strict=True):
             realised[i] = part
         return [piece for part in realised for piece in part.pieces]
@@ -369,6 +382,11 @@ def _dimensions(pieces: Iterable[Piece]) -> dict[SingularityType, int]:
             types = piece.defects.types
             found[types] = max(piece.dimension, found.get(types, 0))
     return found
+
+
+def _is_surface(part: Realised, known: Mapping[SingularityType, int]) -> bool:
+    """Whether the class of some pieces is known to have dimension 2 or more."""
+    return all(known.get(p.defects.types, 0) > 1 for p in part.pieces)
 
 
 def _in_doubt(piece: Piece, known: int | None) -> bool:
