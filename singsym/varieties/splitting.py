@@ -106,8 +106,8 @@ def levels(equations: Sequence[Polynomial]) -> tuple[Level, ...]:
     """
     if not equations:
         return ()
-    orders = [_grow(seed, equations) for seed in equations]
-    best = min(orders, key=_cost)
+    measured = [(frozenset(p.variables), (p.total_degree, len(p)), p) for p in equations]
+    best = min((_grow(seed, measured) for seed in measured), key=_cost)
     order = equations[0].ring.names
     cut: list[Level] = []
     pending: list[Polynomial] = []
@@ -126,16 +126,20 @@ def _cost(steps: Sequence[tuple[frozenset[str], Polynomial]]) -> tuple[int, list
     return sum(counts), counts, [-len(p.variables) for _, p in steps]
 
 
-def _grow(seed: Polynomial, equations: Sequence[Polynomial]) -> list[tuple[frozenset[str], Polynomial]]:
+_Measured = tuple[frozenset[str], tuple[int, int], Polynomial]
+"""An equation with its variables, its degree and its number of terms."""
+
+
+def _grow(seed: _Measured, equations: Sequence[_Measured]) -> list[tuple[frozenset[str], Polynomial]]:
     """The variables seen so far beside each equation, taking next what adds fewest variables."""
-    seen = frozenset(seed.variables)
+    seen = seed[0]
     rest = [p for p in equations if p is not seed]
-    steps = [(seen, seed)]
+    steps = [(seen, seed[2])]
     while rest:
-        chosen = min(rest, key=lambda p: (len(frozenset(p.variables) - seen), p.total_degree, len(p)))
-        rest = [p for p in rest if p is not chosen]
-        seen |= frozenset(chosen.variables)
-        steps.append((seen, chosen))
+        chosen = min(rest, key=lambda p: (len(p[0] - seen), p[1]))
+        rest.remove(chosen)
+        seen |= chosen[0]
+        steps.append((seen, chosen[2]))
     return steps
 
 

@@ -11,6 +11,7 @@ from math import isqrt, lcm
 from random import Random
 
 from flint import fmpz, fmpz_mat, fmpz_poly, nmod_mat, nmod_poly
+from flint.utils.flint_exceptions import DomainError
 
 from singsym.elimination.verdict import Certainty
 from singsym.polynomials import Polynomial, Ring
@@ -36,21 +37,12 @@ class Parametrization:
 
     def image(self, polynomial: Polynomial, check: Check = lambda: None) -> fmpz_poly:
         """A multiple of `polynomial` at the points, by a power of the denominator and a nonzero integer."""
-        terms = polynomial.integer().terms()
         degree = polynomial.total_degree
-        powers: list[list[fmpz_poly]] = [[fmpz_poly([1])] for _ in range(len(self.numerators) + 1)]
-        bases = (*self.numerators, self.denominator)
-        total = fmpz_poly([])
-        for exponents, coefficient in terms:
-            check()
-            term = fmpz_poly([coefficient])
-            for i, e in enumerate((*exponents, degree - sum(exponents))):
-                while len(powers[i]) <= e:
-                    powers[i].append(powers[i][-1] * bases[i])
-                if e:
-                    term = term * powers[i][e]
-            total = total + term
-        return total
+        terms = {
+            (*map(int, exponents), degree - int(sum(exponents))): fmpz(coefficient)
+            for exponents, coefficient in polynomial.integer().terms()
+        }
+        return _value(terms, (*self.numerators, self.denominator), check)
 
     def vanishes(self, polynomial: Polynomial, check: Check = lambda: None) -> bool:
         """Whether `polynomial` is zero at every root of `minimal`: an exact division.
@@ -90,12 +82,30 @@ class Parametrization:
         return not total % minimal
 
 
+def _value(terms: dict[tuple[int, ...], fmpz], at: Sequence[fmpz_poly], check: Check) -> fmpz_poly:
+    """The value of a polynomial, by factoring out what most of its terms have in common (Horner's rule)."""
+    check()
+    counts = [sum(1 for exponents in terms if exponents[i]) for i in range(len(at))]
+    most = max(counts, default=0)
+    if most == 0:
+        return fmpz_poly([sum(terms.values(), fmpz(0))])
+    i = counts.index(most)
+    divided = {(*e[:i], e[i] - 1, *e[i + 1 :]): c for e, c in terms.items() if e[i]}
+    rest = {e: c for e, c in terms.items() if not e[i]}
+    value = _value(divided, at, check) * at[i]
+    return value + _value(rest, at, check) if rest else value
+
+
 def divides(divisor: fmpz_poly, dividend: fmpz_poly) -> bool:
     """Whether a primitive integer polynomial divides another one over Q (then over Z, by Gauss's lemma)."""
     lead = divisor.leading_coefficient()
     if lead % _PRIME != 0 and nmod_poly(dividend, _PRIME) % nmod_poly(divisor, _PRIME):
         return False
-    return bool((dividend // divisor) * divisor == dividend)
+    try:
+        dividend / divisor
+    except DomainError:
+        return False
+    return True
 
 
 # -- from the quotient algebra, modulo primes ----------------------------------------------------------

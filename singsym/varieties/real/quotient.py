@@ -131,26 +131,38 @@ def commuting(algebra: Algebra) -> bool:
 
 def reduced(algebra: Algebra, check: Check = lambda: None) -> Algebra:
     """The algebra modulo its nilpotents, by the squarefree parts of the variables' minimal polynomials."""
-    for i in range(len(algebra.matrices)):
+    nilpotent = []
+    for matrix in algebra.matrices:
         check()
-        minimal = algebra.matrices[i].minpoly()
+        minimal = matrix.minpoly()
         squarefree = minimal / minimal.gcd(minimal.derivative())
-        if squarefree.degree() == minimal.degree():
-            continue
-        count = algebra.dimension
-        nilpotent = fmpq_mat(count, count)
-        for c in reversed(squarefree.coeffs()):
-            nilpotent = nilpotent * algebra.matrices[i]
-            for k in range(count):
-                nilpotent[k, k] += c
-        algebra = _modulo_columns(algebra, nilpotent)
-    return algebra
+        if squarefree.degree() < minimal.degree():
+            value = algebra.one * 0
+            for c in reversed(squarefree.coeffs()):
+                value = matrix * value + algebra.one * c
+            nilpotent.append(value)
+    return _modulo_rows(algebra, _ideal(algebra, nilpotent, check)) if nilpotent else algebra
 
 
-def _modulo_columns(algebra: Algebra, ideal: fmpq_mat) -> Algebra:
-    """The quotient by the ideal that the columns of `ideal` span."""
+def _ideal(algebra: Algebra, elements: Sequence[fmpq_mat], check: Check) -> fmpq_mat:
+    """The ideal that some elements generate, as the rows of a matrix in echelon form."""
     count = algebra.dimension
-    rows, rank = ideal.transpose().rref()
+    vectors = [list(e.entries()) for e in elements]
+    rank = 0
+    while True:
+        check()
+        rows, larger = fmpq_mat(vectors).rref()
+        vectors = rows.tolist()[:larger]
+        if larger == rank:
+            return fmpq_mat(vectors)
+        rank = larger
+        multiples = (m * fmpq_mat(count, 1, v) for m in algebra.matrices for v in list(vectors))
+        vectors += [list(v.entries()) for v in multiples]
+
+
+def _modulo_rows(algebra: Algebra, rows: fmpq_mat) -> Algebra:
+    """The quotient by the ideal that the rows of an echelon form span."""
+    count, rank = algebra.dimension, rows.nrows()
     pivots = [next(k for k in range(count) if rows[r, k]) for r in range(rank)]
     kept = [k for k in range(count) if k not in set(pivots)]
     projection = fmpq_mat(len(kept), count)
