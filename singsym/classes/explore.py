@@ -154,7 +154,7 @@ def _explored(branch: Branch) -> Explored:
         with Budget(branch.seconds, branch.memory_mb):
             whole = unsplit(branch.equations, branch.feasible.ring)
             system = restricted(branch.admitted, whole)
-            if not _points(system, whole, 1) and _is_empty(system):
+            if not _points(system, whole, 1) and is_proven_empty(system):
                 return Explored()
             parts = patches(branch.equations, branch.admitted.nonzero, branch.feasible.ring)
             for k, images in representatives([p.generators for p in parts], branch.kept):
@@ -187,7 +187,7 @@ class _Exploring:
             except NotEvident as doubt:
                 self._split(patch, doubt.polynomial, images)
             return
-        if _is_empty(system):
+        if is_proven_empty(system):
             return
         known: tuple[Equations, ...] = ()
         for component in decompose(patch.generators, system.nonzero, ring=system.ring):
@@ -256,7 +256,7 @@ def _points(system: RealSystem, patch: Patch, count: int = 3) -> Points:
     return numerical_points(replace(system, equations=patch.generators), count)
 
 
-def _is_empty(system: RealSystem) -> bool:
+def is_proven_empty(system: RealSystem) -> bool:
     """Whether it is quickly proven that there is no real point."""
     chart = Cartesian.of(system)
     try:

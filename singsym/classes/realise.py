@@ -12,8 +12,8 @@ from dataclasses import dataclass, field, replace
 
 from flint import arb
 
-from singsym.classes.explore import Found, restricted
-from singsym.classes.patches import unsplit
+from singsym.classes.explore import Found, is_proven_empty, restricted
+from singsym.classes.patches import Patch, unsplit
 from singsym.classes.result import Configuration, Equations, Piece
 from singsym.classes.strata import Stratum
 from singsym.classes.symmetry import image
@@ -160,16 +160,19 @@ def _given(piece: Piece, system: RealSystem, elsewhere: tuple[Equations, ...]) -
     if dimension <= 0:
         with suppress(NotZeroDimensional):
             return _finite(piece, real_points(piece.basis), system, elsewhere)
-    if numerical_codimension(system) in (None, len(system.closed_equations)):
+    codimension = numerical_codimension(system)
+    patch = unsplit(system.closed_equations, system.ring)
+    if codimension is None and is_proven_empty(restricted(system, patch)):
+        return _positive(piece, (-1, None))
+    if codimension in (None, len(system.closed_equations)):
         witness = find_witness(system, tries=SEARCHES)
         if witness is not None and independent(system.closed_equations, witness.point):
             return _positive(piece, (dimension, witness))
-    return _dependent(piece, system)
+    return _dependent(piece, system, patch)
 
 
-def _dependent(piece: Piece, system: RealSystem) -> tuple[Piece, Points]:
+def _dependent(piece: Piece, system: RealSystem, patch: Patch) -> tuple[Piece, Points]:
     """A set given by dependent equations: its dimension by cuts, else by its components."""
-    patch = unsplit(system.closed_equations, system.ring)
     chart = Cartesian.of(restricted(system, patch))
     beside = len(patch.solved) + chart.left_out
     try:
