@@ -16,7 +16,7 @@ from singsym.classes.symmetry import IDENTITY, Reflection, compose, image, keeps
 from singsym.classes.types import Defects, SingularityType
 from singsym.classes.work import Runner
 from singsym.elimination.budget import Budget, Undecided, current
-from singsym.elimination.verdict import Certainty, certainties, weakest
+from singsym.elimination.verdict import Certainty, certainties, noted_if_true, weakest
 from singsym.polynomials import Polynomial
 from singsym.varieties.decomposition import Component, decompose
 from singsym.varieties.real.cartesian import Cartesian
@@ -265,7 +265,8 @@ def is_proven_empty(system: RealSystem) -> bool:
                 return True
     except Undecided:
         pass
-    return is_empty_over_reals(chart.trimmed, current().part(REAL_EMPTINESS_SECONDS), tries=0).is_yes
+    budget = current().part(REAL_EMPTINESS_SECONDS)
+    return noted_if_true(lambda: is_empty_over_reals(chart.trimmed, budget, tries=0).is_yes)
 
 
 def _samples(component: Component, feasible: RealSystem) -> Points | None:

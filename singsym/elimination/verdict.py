@@ -5,7 +5,7 @@ Source: the contract between numerics and proofs; numerics may find, they never 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
@@ -52,6 +52,40 @@ def note(certainty: Certainty) -> None:
     seen = _seen.get()
     if seen is not None and certainty not in seen:
         seen.append(certainty)
+
+
+@contextmanager
+def unnoted() -> Iterator[list[Certainty]]:
+    """Like `certainties`, but nothing of it reaches the lists around: for answers that may not be used.
+
+    >>> with certainties() as outer, unnoted() as seen:
+    ...     note("modular")
+    >>> outer, seen
+    ([], ['modular'])
+    """
+    seen = list[Certainty]()
+    token = _seen.set(seen)
+    try:
+        yield seen
+    finally:
+        _seen.reset(token)
+
+
+def noted_if_true(question: Callable[[], bool]) -> bool:
+    """The answer to a question of which a False has no consequences: then it does not matter how it is known.
+
+    >>> with certainties() as seen:
+    ...     noted_if_true(lambda: note("modular") is not None)
+    False
+    >>> seen
+    []
+    """
+    with unnoted() as seen:
+        answer = question()
+    if answer:
+        for certainty in seen:
+            note(certainty)
+    return answer
 
 
 class Answer(StrEnum):

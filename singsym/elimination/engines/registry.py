@@ -49,7 +49,9 @@ _FLINT_BEFORE_MSOLVE = 0.3
 _LAST_PATIENCE, _DECOMPOSITION_PATIENCE = 3600.0, 120.0
 _CHECK_SECONDS = 20.0
 # a proof of what is known modulo primes may take so many times as long, between these limits
-_PROOF_FACTOR, _PROOF_SECONDS = 4.0, (1.0, 5.0)
+_PROOF_FACTOR, _LEAST_PROOF, _MOST_PROOF = 4.0, 0.5, 2.0
+# the same where it says that there is no zero at all
+_UNIT_SECONDS = 10.0
 
 _allowed: ContextVar[tuple[str, ...]] = ContextVar("engines", default=_DEFAULT)
 
@@ -174,26 +176,29 @@ def _checked(task: Task, answer: EngineAnswer, seconds: float, budget: Budget) -
         if set(exact) != set(answer.ideals[0]):
             raise EngineFailure(answer.engine, "returned a wrong basis: it differs from FLINT's")
         return replace(answer, certainty="proven")
+    if answer.certainty == "modular":
+        unit = answer.ideals[0] == (task.ring.one,)
+        patience = _UNIT_SECONDS if unit else min(max(_PROOF_FACTOR * seconds, _LEAST_PROOF), _MOST_PROOF)
+        if _over_rationals(task, answer, budget.part(patience)):
+            return replace(answer, certainty="proven")
     compared = checks.compare_modulo_prime(task, answer, lambda t: _second_opinion(t, answer.engine, budget))
-    if not (complete and compared):
-        return replace(answer, certainty="modular")
-    if answer.certainty == "modular" and answer.ideals[0] == (task.ring.one,):
-        shortest, longest = _PROOF_SECONDS
-        return _proven_unit(task, answer, budget.part(min(max(_PROOF_FACTOR * seconds, shortest), longest)))
-    return answer
+    return answer if complete and compared else replace(answer, certainty="modular")
 
 
-def _proven_unit(task: Task, answer: EngineAnswer, budget: Budget) -> EngineAnswer:
-    """The unit ideal once more by an engine that computes over Q, since msolve's word rests on primes."""
+def _over_rationals(task: Task, answer: EngineAnswer, budget: Budget) -> bool:
+    """Whether an engine that computes over Q finds the same in time, since msolve's word rests on primes."""
     engine: Engine = singular if has(singular.name) else flint
-    if has(engine.name):
-        try:
-            exact = engine.run(task, budget)
-        except (EngineFailure, BudgetExceeded) as failure:
-            log.debug("no proof: %s", failure)
-        else:
-            return exact if exact.ideals == answer.ideals else answer
-    return answer
+    if not has(engine.name):
+        return False
+    kind = "unit" if engine is singular and answer.ideals[0] == (task.ring.one,) else "groebner"
+    try:
+        exact = engine.run(replace(task, kind=kind), budget)
+    except (EngineFailure, BudgetExceeded) as failure:
+        log.debug("no proof: %s", failure)
+        return False
+    if set(exact.ideals[0]) != set(answer.ideals[0]):
+        raise EngineFailure(answer.engine, f"returned a wrong basis: it differs from that of {engine.name}")
+    return True
 
 
 def _second_opinion(task: Task, asked: str, budget: Budget) -> EngineAnswer | None:

@@ -11,10 +11,11 @@ from collections import Counter
 from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 from singsym.elimination.budget import Undecided, current
 from singsym.elimination.ideal import Ideal
+from singsym.elimination.verdict import noted_if_true, unnoted
 from singsym.kinematics.nonzero import remainder
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.circles import Pair, circle, unit_circles
@@ -109,7 +110,7 @@ class Cartesian:
     def based(self, seconds: float) -> tuple[Ideal, ...]:
         """Those of the ideals whose Groebner bases are found in so many seconds."""
         found: list[Ideal] = []
-        with suppress(Undecided), current().part(seconds):
+        with suppress(Undecided), current().part(seconds), unnoted():
             for ideal in self._ideals:
                 ideal.groebner_basis()
                 found.append(ideal)
@@ -117,7 +118,8 @@ class Cartesian:
 
     def vanishes(self, polynomial: Polynomial, ideals: tuple[Ideal, ...]) -> bool:
         """Whether a polynomial of the given variables is seen to be zero wherever the given system holds."""
-        return any(_contains(ideal, self.moved(polynomial)) for ideal in ideals)
+        moved = self.moved(polynomial)
+        return any(noted_if_true(partial(_contains, ideal, moved)) for ideal in ideals)
 
     def is_empty(self) -> bool:
         """Whether not even complex points are left; False where that is not seen at once.
@@ -130,9 +132,12 @@ class Cartesian:
         True
         """
         return any(p.is_zero for p in self.system.nonzero) or any(
-            ideal.is_unit() or any(_contains(ideal, group) for group in self.system.exclusions)
-            for ideal in self._ideals
+            noted_if_true(partial(self._is_off, ideal)) for ideal in self._ideals
         )
+
+    def _is_off(self, ideal: Ideal) -> bool:
+        """Whether an ideal has no zero, or none off some exclusion."""
+        return ideal.is_unit() or any(_contains(ideal, group) for group in self.system.exclusions)
 
     @property
     def left_out(self) -> int:
