@@ -156,7 +156,7 @@ def _ideal(algebra: Algebra, elements: Sequence[fmpq_mat], check: Check) -> fmpq
         if larger == rank:
             return fmpq_mat(vectors)
         rank = larger
-        multiples = (m * fmpq_mat(count, 1, v) for m in algebra.matrices for v in list(vectors))
+        multiples = (m * fmpq_mat(count, 1, v) for m in algebra.matrices for v in vectors)
         vectors += [list(v.entries()) for v in multiples]
 
 
