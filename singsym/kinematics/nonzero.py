@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, lru_cache
 from math import inf, isqrt
 
 from flint import fmpq
@@ -25,6 +25,8 @@ LONGEST_SUM = 40
 
 Bound = Fraction | float
 Interval = tuple[Bound, Bound]
+Divisors = tuple[tuple[Polynomial, str], ...]
+"""Polynomials, each with the variable in which it is divided by it."""
 
 
 def _fraction(number: fmpq) -> Fraction:
@@ -39,12 +41,20 @@ def remainder(polynomial: Polynomial, divisor: Polynomial, name: str) -> Polynom
     >>> remainder(s**3, c**2 + s**2 - 1, "s")
     -c^2*s + s
     """
-    degree = divisor.degree(name)
-    lead = divisor.coefficient(name, degree)
-    x = polynomial.ring.gen(name)
-    while (power := polynomial.degree(name)) >= degree:
-        top = polynomial.coefficient(name, power) / lead.constant
-        polynomial = polynomial - top * x ** (power - degree) * divisor
+    ring = polynomial.ring
+    if polynomial.degree(name) < divisor.degree(name):
+        return polynomial
+    # in the order of this ring a power of the variable leads, so that FLINT divides by it
+    leading = ring.with_names((name, *(n for n in ring.names if n != name)), "lex")
+    divided = divmod(leading.convert(polynomial).value, leading.convert(divisor).value)[1]
+    return ring.convert(Polynomial(leading, divided))
+
+
+@lru_cache(maxsize=2**15)
+def _divided(polynomial: Polynomial, divisors: Divisors) -> Polynomial:
+    """The remainder on division by one after another; many spaces have the same circles."""
+    for divisor, name in divisors:
+        polynomial = remainder(polynomial, divisor, name)
     return polynomial
 
 
@@ -102,30 +112,17 @@ class Certifier:
         modulo the sums of squares, in which equal polynomials on circles and spheres are identical."""
         if len(polynomial) > LONGEST:
             return ()
-        if polynomial not in self._forms:
-            both = (self._without_squares(polynomial, place) for place in (-1, 0))
-            self._forms[polynomial] = tuple(dict.fromkeys(both))
-        return self._forms[polynomial]
+        return tuple(dict.fromkeys(_divided(polynomial, divisors) for divisors in self._divisors))
 
     def normal_form(self, polynomial: Polynomial) -> Polynomial:
         """The normal form modulo the equations that are sums of squares of variables."""
-        return self._without_squares(polynomial, -1)
-
-    def _without_squares(self, polynomial: Polynomial, place: int) -> Polynomial:
-        degrees = polynomial.degrees
-        for equation, index, degree in self._divisors[place]:
-            if degrees[index] >= degree:
-                polynomial = remainder(polynomial, equation, self.space.ring.names[index])
-                degrees = polynomial.degrees
-        return polynomial
+        return _divided(polynomial, self._divisors[0])
 
     @cached_property
-    def _divisors(self) -> tuple[list[tuple[Polynomial, int, int]], ...]:
-        """For each choice of the variable to remove: equation, variable, degree in it."""
-        return tuple(
-            [(e, e.ring.index(names[place]), e.degree(names[place])) for e, names in self._squares]
-            for place in (0, -1)
-        )
+    def _divisors(self) -> tuple[Divisors, Divisors]:
+        """For each choice of the variable to remove."""
+        last, first = (tuple((e, names[place]) for e, names in self._squares) for place in (-1, 0))
+        return last, first
 
     def shorten(self, polynomial: Polynomial) -> Polynomial:
         """A polynomial with the same values on the configuration space, with fewer terms where one is found.
@@ -140,10 +137,6 @@ class Certifier:
                 best = shorter
             self._short[polynomial] = polynomial.ring.zero if self._is_multiple(best) else best
         return self._short[polynomial]
-
-    @cached_property
-    def _forms(self) -> dict[Polynomial, tuple[Polynomial, ...]]:
-        return {}
 
     @cached_property
     def _short(self) -> dict[Polynomial, Polynomial]:

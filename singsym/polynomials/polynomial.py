@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from fractions import Fraction
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Union
 
 from flint import fmpq, fmpq_mpoly, fmpz, fmpz_mpoly
@@ -24,6 +25,8 @@ def as_fmpq(number: Rational) -> fmpq:
     >>> as_fmpq(Fraction(1, 2))
     1/2
     """
+    if isinstance(number, fmpq):
+        return number
     if isinstance(number, Fraction):
         return fmpq(number.numerator, number.denominator)
     return fmpq(number)
@@ -43,20 +46,18 @@ class Polynomial:
     [(x + y, 1), (x - y, 1)]
     """
 
-    __slots__ = ("_factors", "_hash", "_integer", "ring", "value")
+    __slots__ = ("_hash", "_integer", "ring", "value")
 
     ring: Ring
     value: fmpq_mpoly
     _hash: int
     _integer: fmpz_mpoly | None
-    _factors: tuple[tuple[Polynomial, int], ...] | None
 
     def __init__(self, ring: Ring, value: fmpq_mpoly) -> None:
         object.__setattr__(self, "ring", ring)
         object.__setattr__(self, "value", value)
         object.__setattr__(self, "_hash", 0)
         object.__setattr__(self, "_integer", None)
-        object.__setattr__(self, "_factors", None)
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError(f"a Polynomial is immutable: {name} cannot be set")
@@ -111,6 +112,9 @@ class Polynomial:
 
     def divides(self, other: Polynomial) -> bool:
         """Whether `other` is a multiple of this polynomial."""
+        own, others = self.value.degrees(), other.value.degrees()
+        if other and any(a > b for a, b in zip(own, others, strict=True)):
+            return False
         return not divmod(other.value, self.value)[1]
 
     def gcd(self, other: Polynomial) -> Polynomial:
@@ -128,7 +132,7 @@ class Polynomial:
 
     def __hash__(self) -> int:
         if not self._hash:
-            value = hash((self.ring.names, tuple((m, int(c.p), int(c.q)) for m, c in self.terms())))
+            value = hash((self.ring.names, str(self.value)))
             object.__setattr__(self, "_hash", value or 1)
         return self._hash
 
@@ -193,12 +197,7 @@ class Polynomial:
 
     def factors(self) -> list[tuple[Polynomial, int]]:
         """Primitive irreducible factors over Q with multiplicities, constants dropped, sorted."""
-        if self._factors is None:
-            found = [(Polynomial(self.ring, f).primitive(), k) for f, k in self.value.factor()[1]]
-            found.sort(key=lambda pair: (len(pair[0]), pair[0].total_degree, str(pair[0])))
-            object.__setattr__(self, "_factors", tuple(found))
-        assert self._factors is not None
-        return list(self._factors)
+        return list(_factors(self))
 
     def squarefree_part(self) -> Polynomial:
         """The product of the distinct irreducible factors, primitive."""
@@ -209,29 +208,23 @@ class Polynomial:
 
     def primitive(self) -> Polynomial:
         """The multiple with coprime integer coefficients and a positive leading one."""
-        return Polynomial(self.ring, fmpq_mpoly(self.integer()))
+        coefficients = self.value.coeffs()
+        numerator, denominator = fmpz(0), fmpz(1)
+        for c in coefficients:
+            numerator, denominator = numerator.gcd(c.p), denominator.lcm(c.q)
+        if not coefficients or (coefficients[0] > 0 and numerator == denominator == 1):
+            return self
+        scale = fmpq(denominator, numerator)
+        return Polynomial(self.ring, self.value * (scale if coefficients[0] > 0 else -scale))
 
     def integer(self) -> fmpz_mpoly:
         """The primitive integer multiple as FLINT's `fmpz_mpoly`, for engines."""
         if self._integer is None:
-            object.__setattr__(self, "_integer", self._cleared())
+            value = self.primitive().value
+            terms = zip(value.monoms(), (c.p for c in value.coeffs()), strict=True)
+            object.__setattr__(self, "_integer", self.ring.integer_context.from_dict(dict(terms)))
         assert self._integer is not None
         return self._integer
-
-    def _cleared(self) -> fmpz_mpoly:
-        coefficients = self.value.coeffs()
-        denominator = fmpz(1)
-        for c in coefficients:
-            denominator = denominator.lcm(c.q)
-        if denominator != 1:
-            numerators = [(c * denominator).p for c in coefficients]
-        else:
-            numerators = [c.p for c in coefficients]
-        cleared = self.ring.integer_context.from_dict(dict(zip(self.value.monoms(), numerators, strict=True)))
-        if not numerators:
-            return cleared
-        _, primitive = cleared.primitive()
-        return -primitive if numerators[0] < 0 else primitive
 
     def reflect(self, names: Collection[str]) -> Polynomial:
         """The polynomial with the signs of these variables changed.
@@ -299,6 +292,15 @@ class Polynomial:
 
     def __bool__(self) -> bool:
         return not self.is_zero
+
+
+@lru_cache(maxsize=4096)
+def _factors(polynomial: Polynomial) -> tuple[tuple[Polynomial, int], ...]:
+    """See `Polynomial.factors`; kept, because equal polynomials are made again and again."""
+    found = [
+        (Polynomial(polynomial.ring, factor).primitive(), k) for factor, k in polynomial.value.factor()[1]
+    ]
+    return tuple(sorted(found, key=lambda pair: (len(pair[0]), pair[0].total_degree, str(pair[0]))))
 
 
 def _rebuild(ring: Ring, terms: tuple[tuple[tuple[int, ...], int, int], ...]) -> Polynomial:

@@ -179,16 +179,9 @@ class Ring:
         """
         if polynomial.ring is self or polynomial.ring == self:
             return polynomial
-        source = polynomial.ring
-        used = [source.index(name) for name in polynomial.variables]
-        target = [self.index(source.names[i]) for i in used]
-        terms: dict[tuple[int, ...], fmpq] = {}
-        for exponents, c in polynomial.terms():
-            moved = [0] * len(self.names)
-            for i, j in zip(used, target, strict=True):
-                moved[j] = exponents[i]
-            terms[tuple(moved)] = c
-        return self.from_dict(terms)
+        for name in polynomial.variables:
+            self.index(name)
+        return Polynomial(self, polynomial.value.project_to_context(self.context))
 
     @cached_property
     def relations(self) -> tuple[Polynomial, ...]:

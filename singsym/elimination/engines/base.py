@@ -33,7 +33,7 @@ class EngineUnavailable(Undecided):
 class Task:
     """A computation with polynomials of one ring.
 
-    kind: "groebner" (reduced basis), "unit" (some basis, which is 1 where it can be), "eliminate" (the
+    kind: "groebner" (reduced basis), "slim" (the same by way of short polynomials), "eliminate" (the
     variables `others`), "saturate" (by the product of `others`), "minimal_primes", or "facstd" (pieces with
     the same union of zero sets, not proven prime).
     characteristic: 0, or a prime below 2^31 to compute modulo it.

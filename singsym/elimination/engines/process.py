@@ -16,6 +16,7 @@ import threading
 import time
 import weakref
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from typing import Any
 
 from singsym.elimination.budget import Budget, BudgetExceeded
@@ -41,6 +42,17 @@ def _dies_with_parent() -> Callable[[], None] | None:
             os._exit(1)
 
     return prepare
+
+
+@lru_cache(maxsize=1)
+def _prefix() -> tuple[str, ...]:
+    """A program that starts the child so, where there is one: without, a large parent is slow to fork."""
+    command = ("setpriv", "--pdeathsig", "KILL")
+    try:
+        tried = subprocess.run([*command, "true"], capture_output=True, check=False)
+    except OSError:
+        return ()
+    return command if tried.returncode == 0 else ()
 
 
 def _memory_limit_mb() -> float:
@@ -71,10 +83,12 @@ class Child:
         self.owner = os.getpid()
         options: dict[str, Any] = {}
         if os.name == "posix":
-            options = {"start_new_session": True, "preexec_fn": _dies_with_parent()}
+            options = {"start_new_session": True}
+            if not _prefix():
+                options["preexec_fn"] = _dies_with_parent()
         try:
             self.process = subprocess.Popen(
-                list(command),
+                [*_prefix(), *command],
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.DEVNULL,

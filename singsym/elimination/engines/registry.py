@@ -10,7 +10,7 @@ import os
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
@@ -31,6 +31,7 @@ from singsym.elimination.engines.msolve import MsolveEngine
 from singsym.elimination.engines.singular import SingularEngine
 from singsym.elimination.engines.sympy_engine import SympyEngine
 from singsym.elimination.verdict import note
+from singsym.polynomials import Polynomial
 
 log = logging.getLogger("singsym")
 
@@ -49,9 +50,11 @@ _FLINT_BEFORE_MSOLVE = 0.3
 _LAST_PATIENCE, _DECOMPOSITION_PATIENCE = 3600.0, 120.0
 _CHECK_SECONDS = 20.0
 # a proof of what is known modulo primes may take so many times as long, between these limits
-_PROOF_FACTOR, _LEAST_PROOF, _MOST_PROOF = 4.0, 0.5, 2.0
-# the same where it says that there is no zero at all
-_UNIT_SECONDS = 10.0
+_PROOF_FACTOR, _LEAST_PROOF, _MOST_PROOF = 4.0, 0.5, 3.0
+# the same of a short basis, which is often found by way of short ones
+_SHORT_PROOF = 10.0
+# what a short one has at most: terms in all, bits of a coefficient
+_FEW_TERMS, _FEW_BITS = 200, 32
 
 _allowed: ContextVar[tuple[str, ...]] = ContextVar("engines", default=_DEFAULT)
 
@@ -177,28 +180,38 @@ def _checked(task: Task, answer: EngineAnswer, seconds: float, budget: Budget) -
             raise EngineFailure(answer.engine, "returned a wrong basis: it differs from FLINT's")
         return replace(answer, certainty="proven")
     if answer.certainty == "modular":
-        unit = answer.ideals[0] == (task.ring.one,)
-        patience = _UNIT_SECONDS if unit else min(max(_PROOF_FACTOR * seconds, _LEAST_PROOF), _MOST_PROOF)
-        if _over_rationals(task, answer, budget.part(patience)):
+        exact = over_rationals(task, seconds, _is_short(answer.ideals[0]), budget)
+        if exact is not None:
+            if set(exact) != set(answer.ideals[0]):
+                raise EngineFailure(answer.engine, "returned a wrong basis: it differs from that over Q")
             return replace(answer, certainty="proven")
     compared = checks.compare_modulo_prime(task, answer, lambda t: _second_opinion(t, answer.engine, budget))
     return answer if complete and compared else replace(answer, certainty="modular")
 
 
-def _over_rationals(task: Task, answer: EngineAnswer, budget: Budget) -> bool:
-    """Whether an engine that computes over Q finds the same in time, since msolve's word rests on primes."""
+def over_rationals(
+    task: Task, seconds: float, short: bool, budget: Budget | None = None
+) -> tuple[Polynomial, ...] | None:
+    """The basis by an engine that computes over Q, as msolve's word rests on primes; None where it is slow.
+
+    seconds: how long the answer took modulo primes; short: whether that is short.
+    """
     engine: Engine = singular if has(singular.name) else flint
     if not has(engine.name):
-        return False
-    kind = "unit" if engine is singular and answer.ideals[0] == (task.ring.one,) else "groebner"
+        return None
+    kind = "slim" if short and engine is singular else "groebner"
+    patience = _SHORT_PROOF if short else min(max(_PROOF_FACTOR * seconds, _LEAST_PROOF), _MOST_PROOF)
     try:
-        exact = engine.run(replace(task, kind=kind), budget)
+        return engine.run(replace(task, kind=kind), current(budget).part(patience)).ideals[0]
     except (EngineFailure, BudgetExceeded) as failure:
         log.debug("no proof: %s", failure)
-        return False
-    if set(exact.ideals[0]) != set(answer.ideals[0]):
-        raise EngineFailure(answer.engine, f"returned a wrong basis: it differs from that of {engine.name}")
-    return True
+        return None
+
+
+def _is_short(basis: Sequence[Polynomial]) -> bool:
+    return sum(map(len, basis)) <= _FEW_TERMS and all(
+        c.p.bit_length() <= _FEW_BITS for p in basis for c in p.value.coeffs()
+    )
 
 
 def _second_opinion(task: Task, asked: str, budget: Budget) -> EngineAnswer | None:

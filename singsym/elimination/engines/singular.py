@@ -22,7 +22,7 @@ _ORDERS = {"degrevlex": "dp", "lex": "lp", "deglex": "Dp"}
 # `singsym_i` are the generators, `singsym_j` the others; the answer is a list of ideals `singsym_a`
 _COMMANDS = {
     "groebner": ("", "list singsym_a = list(std(singsym_i));"),
-    "unit": ("", "list singsym_a = list(slimgb(singsym_i));"),
+    "slim": ("", "list singsym_a = list(slimgb(singsym_i));"),
     "eliminate": ("", "list singsym_a = list(eliminate(singsym_i, singsym_p));"),
     "saturate": (
         'LIB "elim.lib";',

@@ -9,13 +9,14 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from flint import fmpq, fmpz
+from flint import fmpq_mpoly, fmpq_mpoly_ctx, fmpz_mpoly_ctx
 
 from singsym.polynomials import Polynomial, Ring
 
-_POWER = r"x\d+(?:\^\d+)?"
-_TERM = re.compile(rf"([+-]?)(?:(\d+(?:/\d+)?)((?:\*{_POWER})*)|({_POWER}(?:\*{_POWER})*))")
-_FACTOR = re.compile(r"x(\d+)(?:\^(\d+))?")
+_POWERS = r"x\d+(?:\^\d{1,6})?(?:\*x\d+(?:\^\d{1,6})?)*"
+_TERM = rf"(?:\d+(?:/0*[1-9]\d*)?(?:\*{_POWERS})?|{_POWERS})"
+_SUM = re.compile(rf"[+-]?{_TERM}(?:[+-]{_TERM})*")
+_WITHOUT_COEFFICIENT = re.compile(r"(?<![*\d])x")
 
 
 def write(polynomial: Polynomial, used: Sequence[int], characteristic: int = 0) -> str:
@@ -27,17 +28,13 @@ def write(polynomial: Polynomial, used: Sequence[int], characteristic: int = 0) 
     >>> write((x - 1) * (y - 2) / 2, (0, 1))
     '1*x1*x2-2*x1-1*x2+2'
     """
-    pieces = []
-    for exponents, c in polynomial.integer().terms():
-        if characteristic and not (c := c % characteristic):
-            continue
-        powers = [
-            f"*x{k}" if exponents[i] == 1 else f"*x{k}^{exponents[i]}"
-            for k, i in enumerate(used, start=1)
-            if exponents[i]
-        ]
-        pieces.append(f"{'' if c < 0 else '+'}{c}{''.join(powers)}")
-    return "".join(pieces).removeprefix("+") or "0"
+    value = polynomial.integer()
+    if characteristic:
+        terms = zip(value.monoms(), (c % characteristic for c in value.coeffs()), strict=True)
+        value = polynomial.ring.integer_context.from_dict(dict(terms))
+    context = fmpz_mpoly_ctx.get([f"x{k}" for k in range(1, len(used) + 1)], value.context().ordering())
+    moved = value.project_to_context(context, {i: k for k, i in enumerate(used)})
+    return _WITHOUT_COEFFICIENT.sub("1*x", str(moved).replace(" ", ""))
 
 
 def read(text: str, ring: Ring, used: Sequence[int]) -> Polynomial:
@@ -47,30 +44,15 @@ def read(text: str, ring: Ring, used: Sequence[int]) -> Polynomial:
     a^2*b - 1/2*b + 3
     """
     text = re.sub(r"\s+", "", text)
-    position, width = 0, len(ring.names)
-    terms: dict[tuple[int, ...], fmpq] = {}
-    while position < len(text):
-        match = _TERM.match(text, position)
-        if match is None or (position and not match[1]):
-            raise ValueError(f"not a polynomial: {text[position : position + 40]!r}")
-        sign, number, after_number, alone = match.groups()
-        exponents = [0] * width
-        for index, power in _FACTOR.findall(after_number or alone or ""):
-            if not 1 <= int(index) <= len(used):
-                raise ValueError(f"x{index} is not one of the {len(used)} variables")
-            exponents[used[int(index) - 1]] += int(power or 1)
-        key = tuple(exponents)
-        terms[key] = terms.get(key, fmpq(0)) + _rational(number or "1", sign)
-        position = match.end()
-    if not text:
-        raise ValueError("no polynomial, but empty text")
-    return ring.from_dict({m: c for m, c in terms.items() if c})
-
-
-def _rational(text: str, sign: str = "") -> fmpq:
-    numerator, _, denominator = text.partition("/")
-    value = fmpq(fmpz(numerator), fmpz(denominator or "1"))
-    return -value if sign == "-" else value
+    if not _SUM.fullmatch(text):
+        known = _SUM.match(text)
+        raise ValueError(f"not a polynomial: {text[known.end() if known else 0 :][:40]!r}")
+    context = fmpq_mpoly_ctx.get([f"x{k}" for k in range(1, len(used) + 1)], ring.context.ordering())
+    try:
+        value = fmpq_mpoly(text, context)
+    except ValueError:
+        raise ValueError(f"not a polynomial in x1, ..., x{len(used)}: {text[:40]!r}") from None
+    return Polynomial(ring, value.project_to_context(ring.context, dict(enumerate(used))))
 
 
 def used_variables(*groups: Sequence[Polynomial]) -> tuple[int, ...]:

@@ -15,6 +15,7 @@ from functools import cached_property, partial
 
 from singsym.elimination.budget import Undecided, current
 from singsym.elimination.ideal import Ideal
+from singsym.elimination.residues import residue_basis, seems_to_contain
 from singsym.elimination.verdict import noted_if_true, unnoted
 from singsym.kinematics.nonzero import remainder
 from singsym.polynomials import Polynomial, Ring
@@ -59,24 +60,24 @@ class Cartesian:
 
     def _simpler(self) -> Cartesian | None:
         used = [vector.pair for vector in self.vectors]
-        best, size = None, _size(self.system)
+        best, size = None, _size(self.system.equations)
         for pair in unit_circles(self.system.equations):
             if pair in used:
                 continue
             for length in (group[0] for group in self.system.exclusions if len(group) == 1):
                 vector = _Vector.of(pair, length, self.system)
-                if vector is not None:
-                    changed = vector.applied(self.system)
-                    if _size(changed) < size:
-                        faithful = self.faithful and vector.keeps(self.system.exclusions)
-                        best, size = Cartesian(changed, (*self.vectors, vector), faithful), _size(changed)
-        return best
+                if vector is not None and (other := _size(vector.all_parts(self.system.equations))) < size:
+                    best, size = vector, other
+        if best is None:
+            return None
+        faithful = self.faithful and best.keeps(self.system.exclusions)
+        return Cartesian(best.applied(self.system), (*self.vectors, best), faithful)
 
     def moved(self, polynomial: Polynomial) -> Group:
         """Polynomials that all vanish on the image of a set exactly if the given one vanishes on the set."""
         parts: Group = (polynomial,)
         for vector in self.vectors:
-            parts = tuple(other for p in parts for other in vector.parts(p))
+            parts = vector.all_parts(parts)
         return parts
 
     @cached_property
@@ -136,8 +137,13 @@ class Cartesian:
         )
 
     def _is_off(self, ideal: Ideal) -> bool:
-        """Whether an ideal has no zero, or none off some exclusion."""
-        return ideal.is_unit() or any(_contains(ideal, group) for group in self.system.exclusions)
+        """Whether an ideal has no zero, or none off some exclusion; first modulo a prime."""
+        residues = residue_basis(ideal)
+        groups = [tuple(map(ideal.ring.convert, group)) for group in self.system.exclusions]
+        if residues and (ideal.ring.one,) != residues:
+            groups = [group for group in groups if seems_to_contain(residues, group)]
+            return any(map(partial(_contains, ideal), groups))
+        return ideal.is_unit() or any(map(partial(_contains, ideal), groups))
 
     @property
     def left_out(self) -> int:
@@ -197,8 +203,8 @@ def _contains(ideal: Ideal, polynomials: Group) -> bool:
     return all(ideal.contains(ideal.ring.convert(p)) for p in polynomials)
 
 
-def _size(system: RealSystem) -> int:
-    return sum(sum(m) for p in system.equations for m, _ in p.terms())
+def _size(equations: Group) -> int:
+    return sum(sum(m) for p in equations for m in p.value.monoms())
 
 
 def _short_exclusions(system: RealSystem) -> tuple[Group, ...]:
@@ -253,7 +259,7 @@ class _Vector:
         return vector
 
     def applied(self, system: RealSystem) -> RealSystem:
-        groups = [tuple(q for g in group for q in self.parts(g)) for group in system.exclusions]
+        groups = list(map(self.all_parts, system.exclusions))
         length = system.ring.gen(self.length)
         square = length if self.relation is None else 1 - (self.relation + 1 - length**2)
         groups += [(factor,) for factor, _ in square.factors()]
@@ -263,7 +269,7 @@ class _Vector:
         )
         return RealSystem(
             system.ring,
-            tuple(q for p in system.equations for q in self.parts(p)),
+            self.all_parts(system.equations),
             _open(groups, system.ring),
             positive,
             nonnegative,
@@ -272,6 +278,10 @@ class _Vector:
     def keeps(self, groups: Iterable[Group]) -> bool:
         """Whether exclusions are the same for both vectors of a length that is left out."""
         return all(len(self.parts(g)) <= 1 for group in groups for g in group)
+
+    def all_parts(self, group: Group) -> Group:
+        """The parts of several polynomials."""
+        return tuple(q for p in group for q in self.parts(p))
 
     def parts(self, p: Polynomial) -> Group:
         """The polynomial in the new variables; two parts where it holds odd powers of a length left out."""

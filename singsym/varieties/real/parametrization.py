@@ -61,14 +61,21 @@ class Parametrization:
         height = max(p.height_bits() for p in sizes)
         return float(len(polynomial) * degree**3 * self.minimal.degree() * height)
 
-    def vanishes_modulo(self, polynomial: Polynomial, prime: int = _PRIME) -> bool | None:
-        """The same modulo a prime below 2^63; `False` proves that it does not vanish, `None` says nothing."""
+    def modulo(self, prime: int) -> tuple[nmod_poly, list[nmod_poly]] | None:
+        """The minimal polynomial and the coordinates modulo it and a prime; None where that is unlucky."""
         minimal, below = nmod_poly(self.minimal, prime), nmod_poly(self.denominator, prime)
         if minimal.degree() < self.minimal.degree() or minimal.gcd(below).degree() > 0:
             return None
         # at degree 0 there is no root, and all is zero there
         inverse = below.xgcd(minimal)[1] if minimal.degree() > 0 else nmod_poly([], prime)
-        values = [nmod_poly(n, prime) * inverse % minimal for n in self.numerators]
+        return minimal, [nmod_poly(n, prime) * inverse % minimal for n in self.numerators]
+
+    def vanishes_modulo(self, polynomial: Polynomial, prime: int = _PRIME) -> bool | None:
+        """The same modulo a prime below 2^63; `False` proves that it does not vanish, `None` says nothing."""
+        coordinates = self.modulo(prime)
+        if coordinates is None:
+            return None
+        minimal, values = coordinates
         powers: list[list[nmod_poly]] = [[nmod_poly([1], prime)] for _ in values]
         total = nmod_poly([], prime)
         for exponents, coefficient in polynomial.integer().terms():

@@ -10,8 +10,10 @@ from singsym.varieties.real.witness import RealSystem
 
 NEAR = 1e-3
 """Smaller values of exclusions with coefficients of size 1 are taken for zero: as at a fourfold root."""
-STARTS = 60
-"""Random starts for numerical points of a set."""
+STARTS = (4, 8, 16, 32)
+"""So many random starts are tried together for numerical points of a set, until there are enough."""
+POLISHING = 15
+"""Undamped steps after them."""
 Points = tuple[tuple[float, ...], ...]
 
 
@@ -26,26 +28,27 @@ def numerical_points(system: RealSystem, count: int = 3) -> Points:
     """
     import numpy
 
-    from singsym.varieties.real.search import Compiled, gauss_newton
+    from singsym.varieties.real.search import Compiled, approach, gauss_newton
 
     ring = system.ring
     compiled = Compiled((*system.equations, *ring.relations), ring)
     random = numpy.random.default_rng(0)
     found: list[tuple[float, ...]] = []
-    for _ in range(STARTS):
-        start = random.normal(size=len(ring.names)) * 2
+    for number in STARTS:
+        starts = random.normal(size=(number, len(ring.names))) * 2
         for constant in ring.constants:
-            start[ring.index(constant.name)] = float((constant.low + constant.high) / 2)
-        x = gauss_newton(compiled, start)
-        if x is None:
-            continue
-        point = tuple(map(float, x))
-        if all(is_off(point, group) for group in system.exclusions) and all(
-            p.evaluate(point) > -1e-9 for p in (*system.positive, *system.nonnegative)
-        ):
-            found.append(point)
-        if len(found) == count:
-            break
+            starts[:, ring.index(constant.name)] = float((constant.low + constant.high) / 2)
+        for near in approach(compiled, starts):
+            x = gauss_newton(compiled, near, POLISHING)
+            if x is None:
+                continue
+            point = tuple(map(float, x))
+            if all(is_off(point, group) for group in system.exclusions) and all(
+                p.evaluate(point) > -1e-9 for p in (*system.positive, *system.nonnegative)
+            ):
+                found.append(point)
+            if len(found) == count:
+                return tuple(found)
     return tuple(found)
 
 

@@ -1,6 +1,7 @@
 """Numerical search for real solutions: Gauss-Newton from random starts.  It finds; it proves nothing.
 
-Source: Ortega, Rheinboldt, Iterative Solution of Nonlinear Equations in Several Variables (1970), ch. 8.
+Sources: Ortega, Rheinboldt, Iterative Solution of Nonlinear Equations in Several Variables (1970), ch. 8;
+Yamashita, Fukushima, On the Rate of Convergence of the Levenberg-Marquardt Method (2001), for the damping.
 """
 
 from __future__ import annotations
@@ -18,6 +19,12 @@ if TYPE_CHECKING:
 
     Vector = NDArray[np.float64]
     Map = Callable[[Vector], tuple[Vector, Vector]]
+
+
+_DAMPING = 1e-2
+_LEAST_DAMPING = 1e-12
+_REACHED = 1e-12
+_NEAR = 1e-4
 
 
 class Compiled:
@@ -50,15 +57,24 @@ class Compiled:
 
     def __call__(self, x: Vector) -> tuple[Vector, Vector]:
         """Values and Jacobian matrix at a point."""
+        values, slopes = self.at(x[np.newaxis])
+        return values[0], slopes[0]
+
+    def at(self, points: Vector) -> tuple[Vector, Vector]:
+        """Values and Jacobian matrices at several points, one a row."""
+        number = len(points)
         highest = int(self.exponents.max(initial=0))
-        powers = np.ones((self.size, highest + 1))
+        powers = np.ones((number, self.size, highest + 1))
         for e in range(1, highest + 1):
-            powers[:, e] = powers[:, e - 1] * x
-        monomials = np.prod(powers[np.arange(self.size), self.exponents], axis=1)
-        products = self.factors * monomials[self.places]
+            powers[:, :, e] = powers[:, :, e - 1] * points
+        monomials = np.prod(powers[:, np.arange(self.size), self.exponents], axis=2)
+        products = self.factors * monomials[:, self.places]
         length = self.count * (1 + self.size)
-        total = np.asarray(np.bincount(self.rows, weights=products, minlength=length), dtype=np.float64)
-        return total[: self.count], total[self.count :].reshape(self.count, self.size)
+        places = np.arange(number)[:, np.newaxis] * length + self.rows
+        sums = np.bincount(places.ravel(), weights=products.ravel(), minlength=number * length)
+        total = np.asarray(sums, dtype=np.float64).reshape(number, length)
+        slopes = total[:, self.count :].reshape(number, self.count, self.size)
+        return total[:, : self.count], slopes
 
 
 def gauss_newton(system: Map, start: Vector, steps: int = 60) -> Vector | None:
@@ -75,6 +91,29 @@ def gauss_newton(system: Map, start: Vector, steps: int = 60) -> Vector | None:
             break
     value, _ = system(x)
     return x if float(np.max(np.abs(value), initial=0.0)) < 1e-9 else None
+
+
+def approach(system: Compiled, starts: Vector, steps: int = 60) -> list[Vector]:
+    """Points near zeros of the system from those starts, one a row, that come near any, in their order.
+
+    All starts take their steps together, damped by the squared size of the values: near dependent equations
+    this is as quick as elsewhere.
+    """
+    points = np.array(starts)
+    values, slopes = system.at(points)
+    for _ in range(steps):
+        sizes = np.sum(values * values, axis=1)
+        if not np.any(sizes > _REACHED**2):
+            break
+        gram = slopes @ slopes.transpose(0, 2, 1)
+        damping = np.maximum(_DAMPING * sizes, _LEAST_DAMPING * np.trace(gram, axis1=1, axis2=2))
+        gram += (damping + np.finfo(float).tiny)[:, np.newaxis, np.newaxis] * np.eye(system.count)
+        moves = np.linalg.solve(gram, -values[:, :, np.newaxis])
+        changes = (slopes.transpose(0, 2, 1) @ moves)[:, :, 0]
+        lengths = np.linalg.norm(changes, axis=1, keepdims=True)
+        points = points + changes / np.maximum(1.0, lengths)
+        values, slopes = system.at(points)
+    return [x for x, value in zip(points, values, strict=True) if float(np.linalg.norm(value)) < _NEAR]
 
 
 def numerical_rank(slope: Vector) -> int:

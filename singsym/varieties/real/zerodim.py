@@ -6,6 +6,7 @@ Source: Faugere et al. (1993) and Rouillier (1999), see quotient.py and parametr
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import islice
@@ -19,11 +20,12 @@ from singsym.elimination.basis import canonical, groebner_basis
 from singsym.elimination.budget import Budget, Undecided, current
 from singsym.elimination.engines.msolve import NotZeroDimensional as InfinitelyMany
 from singsym.elimination.engines.msolve import RawParametrization
-from singsym.elimination.engines.registry import msolve
+from singsym.elimination.engines.registry import msolve, over_rationals
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.memo import is_known, remember
 from singsym.elimination.verdict import note
 from singsym.polynomials import AlgebraicConstant, Polynomial, Ring
+from singsym.varieties.real.completeness import is_complete
 from singsym.varieties.real.macaulay import quotient_algebra_over
 from singsym.varieties.real.parametrization import Parametrization, divides, parametrize, primes
 from singsym.varieties.real.points import RealPoint, real_points_of
@@ -96,7 +98,10 @@ def _solve(ring: Ring, system: tuple[Polynomial, ...], budget: Budget) -> Parame
         if whole is not None:
             return _from_basis(ring, whole, system, check)
     if not known and engines.has("msolve"):
+        start = time.monotonic()
         found = _by_msolve(ring, system, budget)
+        if found is not None and _is_known_complete(found, system, time.monotonic() - start, check):
+            found = replace(found, certainty="proven")
     elif not known and "flint" in engines.allowed():
         easy, hard = _easy_part(ring, system)
         algebra = quotient_algebra_over(Ideal(ring, easy), hard, check) if easy else None
@@ -156,6 +161,18 @@ def _by_msolve(ring: Ring, system: Sequence[Polynomial], budget: Budget) -> Para
         return Parametrization(ring, one, one, (none,) * len(ring.names), "modular")
     found, separating = _read(ring, raw)
     return found if separating and all(_holds(found, f, budget) for f in system) else None
+
+
+def _is_known_complete(
+    found: Parametrization, system: tuple[Polynomial, ...], seconds: float, check: Check
+) -> bool:
+    """Whether these are all points, where a basis over Q is found quickly.
+
+    seconds: how long the search for them took.
+    """
+    task = engines.Task("groebner", found.ring, system)
+    basis = over_rationals(task, seconds, short=found.minimal.degree() == 0)
+    return basis is not None and is_complete(found, basis, check)
 
 
 def _holds(found: Parametrization, equation: Polynomial, budget: Budget) -> bool:
