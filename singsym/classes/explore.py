@@ -15,6 +15,7 @@ from singsym.classes.strata import Ground, Least, NotEvident, RankProblem, Strat
 from singsym.classes.symmetry import IDENTITY, Reflection, compose, image, keeps, representatives
 from singsym.classes.types import Defects, SingularityType
 from singsym.classes.work import Runner
+from singsym.elimination import engines
 from singsym.elimination.budget import Budget, Undecided, current
 from singsym.elimination.verdict import Certainty, certainties, noted_if_true, weakest
 from singsym.polynomials import Polynomial
@@ -146,6 +147,12 @@ def explore(branch: Branch) -> Explored:
     with certainties() as seen:
         found = _explored(branch)
     return replace(found, certainty=weakest(*seen))
+
+
+def explore_patiently(branch: Branch) -> Explored:
+    """The same with much time for proofs over Q."""
+    with engines.patiently():
+        return explore(branch)
 
 
 def _explored(branch: Branch) -> Explored:
@@ -316,7 +323,7 @@ def search(
     evident = frontier[0].evident if frontier else ()
     whole = budget or Budget()
     unexplored: list[tuple[Branch, str]] = []
-    certainty: Certainty = "proven"
+    modular: list[tuple[Branch, Explored]] = []
     level = 0
     while frontier:
         level += 1
@@ -326,12 +333,24 @@ def search(
             if explored is None:
                 unexplored.append((branch, f"the budget of {whole.seconds:g} s for the search is used up"))
                 continue
-            certainty = weakest(certainty, explored.certainty)
+            if explored.certainty != "proven":
+                modular.append((branch, explored))
             unexplored += [(branch, reason) for reason in explored.undecided]
             found += explored.found
             following += explored.following
         frontier = following
-    return Exploration(tuple(found), tuple(unexplored), evident, certainty)
+    return Exploration(tuple(found), tuple(unexplored), evident, _proven(modular, runner, whole))
+
+
+def _proven(modular: Sequence[tuple[Branch, Explored]], runner: Runner, budget: Budget) -> Certainty:
+    """How branches that rest on primes are known, after a second look with much time for proofs."""
+    branches = [branch for branch, _ in modular]
+    seconds = runner.map_within(explore_patiently, branches, "strata, proofs over Q", budget)
+    known: list[Certainty] = []
+    for (_, first), second in zip(modular, seconds, strict=True):
+        same = second is not None and replace(second, certainty=first.certainty) == first
+        known.append(second.certainty if second is not None and same else first.certainty)
+    return weakest(*known)
 
 
 def _started(root: Branch, singular: SingularLoci) -> tuple[list[Found], list[Branch]]:

@@ -31,6 +31,10 @@ if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=_after_fork)
 
 
+def _full(question: str, key: Hashable) -> Hashable:
+    return question, key, engines.allowed(), engines.is_patient()
+
+
 def remember(question: str, key: Hashable, compute: Callable[[], Value]) -> Value:
     """The value computed before for this question and key with the engines allowed now, or a new one.
 
@@ -39,7 +43,7 @@ def remember(question: str, key: Hashable, compute: Callable[[], Value]) -> Valu
     >>> remember("a doctest", 2, lambda: 4), remember("a doctest", 2, lambda: 5)
     (4, 4)
     """
-    full = (question, key, engines.allowed())
+    full = _full(question, key)
     with _lock:
         known = _known.get(full)
         if known is not None:
@@ -59,7 +63,7 @@ def remember(question: str, key: Hashable, compute: Callable[[], Value]) -> Valu
 
 def is_known(question: str, key: Hashable) -> bool:
     """Whether `remember` would answer at once."""
-    return (question, key, engines.allowed()) in _known
+    return _full(question, key) in _known
 
 
 def forget() -> None:

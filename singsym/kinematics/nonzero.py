@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
+from functools import reduce as fold
 from math import inf, isqrt
 
 from flint import fmpq
@@ -197,13 +198,13 @@ class Certifier:
         for form in forms:
             if form.is_constant and form:
                 return f"equal to {form} on the configuration space"
-        for positive in self.space.positive:
-            if any(form and form.divides(positive) for form in forms):
-                return f"a divisor of {short_text(positive)} > 0"
+        for form in forms:
+            if (found := self._divisors_of_nonzero.get(form.primitive())) is not None:
+                return found
         for form in forms:
             if len(form) <= LONGEST_SUM and (found := self._sign(form)) is not None:
                 return found
-        return self._excluded(polynomial, tuple(forms))
+        return None
 
     def _sign(self, polynomial: Polynomial) -> str | None:
         if self._is_positive_sum(polynomial) or self._is_positive_sum(-polynomial):
@@ -284,28 +285,27 @@ class Certifier:
             low, high = low + ends[0], high + ends[1]
         return low < -1e-6 and high > 1e-6
 
-    def _excluded(self, polynomial: Polynomial, forms: tuple[Polynomial, ...]) -> str | None:
-        """Whether a real zero of an irreducible polynomial is a common zero of an exclusion's polynomials.
-
-        So it is where it divides all of them, or where it is a positive multiple of their squares' sum.
-        """
-        for exclusion, words, sums in self._exclusions:
-            if any(form and all(form.divides(g) for g in exclusion) for form in forms):
-                return words
-            if any(form and form.divides(s) for form in forms for s in sums if s):
-                return words
-        return None
-
     @cached_property
-    def _exclusions(self) -> tuple[tuple[tuple[Polynomial, ...], str, tuple[Polynomial, ...]], ...]:
-        """Each exclusion with its words and the forms of the sum of its squares."""
-        found = []
-        for exclusion in self.space.exclusions:
+    def _divisors_of_nonzero(self) -> dict[Polynomial, str]:
+        """Irreducible polynomials that have no zero where conditions and exclusions hold, and why.
+
+        A real zero of one is a common zero of an exclusion's polynomials where it divides all of them, or a
+        sum of their squares that is short enough to be factored, or is such a sum.
+        """
+        found: dict[Polynomial, str] = {}
+        for exclusion in reversed(self.space.exclusions):
             words = "nonzero outside the excluded " + ", ".join(f"{short_text(g, 4)} = 0" for g in exclusion)
             total = sum((g * g for g in exclusion), start=self.space.ring.zero)
-            sums = dict.fromkeys((total, self.shorten(total), *self.forms(total)))
-            found.append((exclusion, words, tuple(sums)))
-        return tuple(found)
+            for form in (total, self.shorten(total), *self.forms(total)):
+                if form:
+                    found[form.primitive()] = words
+                    found |= {f: words for f, _ in form.factors() if len(form) <= LONGEST_SUM}
+            common = fold(Polynomial.gcd, exclusion, self.space.ring.zero)
+            found |= {f: words for f, _ in common.factors()}
+        for positive in reversed(self.space.positive):
+            words = f"a divisor of {short_text(positive)} > 0"
+            found |= {f: words for f in (positive.primitive(), *(f for f, _ in positive.factors()))}
+        return found
 
 
 def _range(polynomial: Polynomial, bounds: Mapping[str, Interval]) -> Interval:

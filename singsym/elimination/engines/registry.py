@@ -53,10 +53,13 @@ _CHECK_SECONDS = 20.0
 _PROOF_FACTOR, _LEAST_PROOF, _MOST_PROOF = 4.0, 0.5, 3.0
 # the same of a short basis, which is often found by way of short ones
 _SHORT_PROOF = 10.0
+# so many times as long where a proof is worth waiting for
+_PATIENT = 10.0
 # what a short one has at most: terms in all, bits of a coefficient
 _FEW_TERMS, _FEW_BITS = 200, 32
 
 _allowed: ContextVar[tuple[str, ...]] = ContextVar("engines", default=_DEFAULT)
+_patient: ContextVar[bool] = ContextVar("patient", default=False)
 
 
 @contextmanager
@@ -85,6 +88,26 @@ def use(*names: str) -> Iterator[None]:
 def allowed() -> tuple[str, ...]:
     """The names of the engines that may be asked here."""
     return _allowed.get()
+
+
+@contextmanager
+def patiently() -> Iterator[None]:
+    """Proofs over Q of what is known modulo primes may take much longer for the work inside.
+
+    >>> with patiently():
+    ...     is_patient()
+    True
+    """
+    token = _patient.set(True)
+    try:
+        yield
+    finally:
+        _patient.reset(token)
+
+
+def is_patient() -> bool:
+    """Whether proofs are waited for longer here."""
+    return _patient.get()
 
 
 def has(name: str) -> bool:
@@ -201,6 +224,7 @@ def over_rationals(
         return None
     kind = "slim" if short and engine is singular else "groebner"
     patience = _SHORT_PROOF if short else min(max(_PROOF_FACTOR * seconds, _LEAST_PROOF), _MOST_PROOF)
+    patience *= _PATIENT if is_patient() else 1
     try:
         return engine.run(replace(task, kind=kind), current(budget).part(patience)).ideals[0]
     except (EngineFailure, BudgetExceeded) as failure:

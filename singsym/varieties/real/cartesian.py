@@ -300,6 +300,9 @@ class _Vector:
         """The polynomial times a power of the length, in the new variables; an even power where asked for."""
         ring = p.ring
         k, pair = ring.index(self.length), tuple(map(ring.index, self.pair))
+        degrees = p.degrees
+        if all(degrees[i] <= 0 for i in (k, *pair)):
+            return p
         p = p.substitute({self.length: self.put})
         if p.is_zero:
             return p
