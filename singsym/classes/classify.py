@@ -33,9 +33,9 @@ from singsym.polynomials import Polynomial
 from singsym.varieties.real.witness import RealSystem
 
 MEMBERSHIP_SECONDS = 5.0
-SHORT_SECONDS = 5.0
+SHORT_SECONDS = 3.0
 """So long each stratum is looked at before it is known whether more time is worth while."""
-LONG_SECONDS = 15.0
+LONG_SECONDS = 10.0
 """So long it is looked at where only the dimension of its class is in doubt."""
 
 
