@@ -304,7 +304,7 @@ class Certifier:
             found |= {f: words for f, _ in common.factors()}
         for positive in reversed(self.space.positive):
             words = f"a divisor of {short_text(positive)} > 0"
-            found |= {f: words for f in (positive.primitive(), *(f for f, _ in positive.factors()))}
+            found |= dict.fromkeys((positive.primitive(), *(f for f, _ in positive.factors())), words)
         return found
 
 
