@@ -10,12 +10,14 @@ from pathlib import Path
 import pytest
 
 from singsym.classes import classify as module
+from singsym.classes import explore as search_module
 from singsym.classes.classify import classify
-from singsym.classes.explore import Branch, explore, search, split_product
+from singsym.classes.explore import Branch, Explored, explore, search, split_product
 from singsym.classes.realise import Names, RealTask, realise
 from singsym.classes.result import Classification
 from singsym.classes.strata import RankProblem
 from singsym.classes.work import Runner
+from singsym.elimination.verdict import Certainty
 from singsym.mechanism import load
 from singsym.polynomials import PolynomialMatrix, Ring
 from singsym.varieties.real.sampling import numerical_points
@@ -150,3 +152,28 @@ def test_limits_leave_configurations_out() -> None:
         for name, result in (("limited", everything), ("unlimited", unlimited))
     }
     assert counts == {"limited": [2], "unlimited": [4]}
+
+
+@pytest.mark.parametrize(("second", "certainty"), [("proven", "proven"), ("modular", "modular")])
+def test_branches_that_rest_on_primes_are_looked_at_again(
+    monkeypatch: pytest.MonkeyPatch, second: Certainty, certainty: Certainty
+) -> None:
+    def first_look(branch: Branch) -> Explored:
+        return Explored(certainty="modular")
+
+    def second_look(branch: Branch) -> Explored:
+        return Explored(certainty=second)
+
+    monkeypatch.setattr(search_module, "explore", first_look)
+    monkeypatch.setattr(search_module, "explore_patiently", second_look)
+    ring = Ring(("x",))
+    root = Branch(RankProblem({}, 0, 1, 1), RealSystem(ring, ()), ring.gens)
+    assert search(root, Runner()).certainty == certainty
+
+
+def test_a_second_look_that_finds_something_else_proves_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(search_module, "explore", lambda branch: Explored(certainty="modular"))
+    monkeypatch.setattr(search_module, "explore_patiently", lambda branch: Explored(undecided=("late",)))
+    ring = Ring(("x",))
+    root = Branch(RankProblem({}, 0, 1, 1), RealSystem(ring, ()), ring.gens)
+    assert search(root, Runner()).certainty == "modular"

@@ -91,3 +91,14 @@ def test_remainder_keeps_values_on_the_circle(i: int, j: int) -> None:
     r = remainder(p, CIRCLES[0], "s")
     assert r.degree("s") <= 1
     assert r.evaluate(point) == p.evaluate(point)
+
+
+@pytest.mark.parametrize(
+    ("divisor", "name"), [(c**2 + s**2 - 1, "c"), (c**2 + s**2 - 1, "s"), (2 * t**3 - x * d - 5, "t")]
+)
+def test_a_remainder_has_a_lower_degree_and_differs_by_a_multiple(divisor: Polynomial, name: str) -> None:
+    polynomial = (c + 2 * s * t - x) ** 4 + a * t**5 * c**2 - s**3
+    found = remainder(polynomial, divisor, name)
+    assert found.degree(name) < divisor.degree(name)
+    assert divisor.divides(polynomial - found)
+    assert remainder(found, divisor, name) == found
