@@ -12,7 +12,6 @@ from dataclasses import replace
 from flint import fmpz_poly
 
 from singsym.elimination.budget import Budget, Undecided, current
-from singsym.elimination.ideal import Ideal
 from singsym.elimination.verdict import Verdict, certainties
 from singsym.polynomials import Polynomial
 from singsym.varieties.decomposition import Component, decompose
@@ -48,27 +47,6 @@ def is_empty_over_reals(
     if verdict.is_yes and "modular" in seen:
         return replace(verdict, certainty="modular", engine="msolve")
     return verdict
-
-
-def complex_emptiness(system: RealSystem, budget: Budget | None = None) -> Verdict:
-    """Whether not even complex numbers solve the equations off the exclusions and off p = 0 for each p > 0.
-
-    Source: Rabinowitsch (1929), with variables of their own for each exclusion: some t1 g1 + t2 g2 + ... = 1.
-
-    >>> from singsym.polynomials import Ring
-    >>> R = Ring(("x", "y"))
-    >>> x, y = R.gens
-    >>> complex_emptiness(RealSystem(R, (x * y, x - 2), exclusions=((y, x - 2),))).answer
-    <Answer.YES: 'yes'>
-    """
-    groups = [*system.exclusions, *((p,) for p in system.positive)]
-    names = [f"inverse {i} {j}" for i, group in enumerate(groups) for j in range(len(group))]
-    wide = system.ring.with_names((*names, *system.ring.names))
-    inverse = iter(wide.gens)
-    equations = [wide.convert(f) for f in system.closed_equations]
-    for group in groups:
-        equations.append(sum((next(inverse) * wide.convert(g) for g in group), start=-wide.one))
-    return Ideal(wide, equations).unit_verdict(budget)
 
 
 def _decided(system: RealSystem, budget: Budget, seed: int, tries: int) -> Verdict:
