@@ -8,16 +8,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from singsym.elimination import engines
-from singsym.elimination.budget import Undecided, current
+from singsym.elimination.budget import current
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Polynomial, Ring
 
 _PRIME = 2**31 - 1
+_SECONDS = 3.0
 Basis = tuple[Polynomial, ...]
 
 
 def residue_basis(ideal: Ideal) -> Basis | None:
-    """The Groebner basis modulo a prime; None where no engine finds it."""
+    """The Groebner basis modulo a prime; None where there is no engine for it.
+
+    Raises `Undecided` where it takes so long that one over Q need not be tried.
+    """
     return _basis(ideal.ring, ideal.generators)
 
 
@@ -41,8 +45,8 @@ def _divides(m: Sequence[int], other: Sequence[int]) -> bool:
 
 
 def _basis(ring: Ring, generators: Sequence[Polynomial]) -> Basis | None:
+    task = engines.Task("groebner", ring, tuple(generators), (), _PRIME)
     try:
-        return engines.solve(engines.Task("groebner", ring, tuple(generators), (), _PRIME)).ideals[0]
-    except Undecided:
-        current().check("a Groebner basis modulo a prime")
+        return engines.solve(task, current().part(_SECONDS)).ideals[0]
+    except engines.EngineUnavailable:
         return None

@@ -138,11 +138,15 @@ class Cartesian:
 
     def _is_off(self, ideal: Ideal) -> bool:
         """Whether an ideal has no zero, or none off some exclusion; first modulo a prime."""
-        residues = residue_basis(ideal)
         groups = [tuple(map(ideal.ring.convert, group)) for group in self.system.exclusions]
-        if residues and (ideal.ring.one,) != residues:
-            groups = [group for group in groups if seems_to_contain(residues, group)]
-            return any(map(partial(_contains, ideal), groups))
+        try:
+            residues = residue_basis(ideal)
+            if residues and (ideal.ring.one,) != residues:
+                groups = [group for group in groups if seems_to_contain(residues, group)]
+                return any(map(partial(_contains, ideal), groups))
+        except Undecided:
+            current().check("a proof that there is no complex point")
+            return False
         return ideal.is_unit() or any(map(partial(_contains, ideal), groups))
 
     @property
