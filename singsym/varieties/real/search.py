@@ -21,10 +21,10 @@ if TYPE_CHECKING:
     Map = Callable[[Vector], tuple[Vector, Vector]]
 
 
-_DAMPING = 1e-2
-_LEAST_DAMPING = 1e-12
-_REACHED = 1e-12
-_NEAR = 1e-4
+# damping over the squared norm of the values, and its least over the squared norm of the slopes
+_DAMPING, _LEAST_DAMPING = 1e-2, 1e-12
+# norms of the values: where steps end, and where a few more without damping are worth while
+_REACHED, _NEAR = 1e-12, 1e-4
 
 
 class Compiled:
