@@ -11,6 +11,11 @@ from math import comb
 Exponents = tuple[int, ...]
 
 
+def divides(divisor: Exponents, monomial: Exponents) -> bool:
+    """Whether a monomial is a multiple of another one, both given by their exponents."""
+    return all(a <= b for a, b in zip(divisor, monomial, strict=True))
+
+
 def minimal(monomials: Iterable[Exponents]) -> tuple[Exponents, ...]:
     """The minimal generators, sorted.
 
@@ -19,7 +24,7 @@ def minimal(monomials: Iterable[Exponents]) -> tuple[Exponents, ...]:
     """
     kept: list[Exponents] = []
     for m in sorted(set(monomials), key=lambda e: (sum(e), e)):
-        if not any(all(a <= b for a, b in zip(k, m, strict=True)) for k in kept):
+        if not any(divides(k, m) for k in kept):
             kept.append(m)
     return tuple(kept)
 

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from singsym.elimination import engines
 from singsym.elimination.budget import current
 from singsym.elimination.ideal import Ideal
+from singsym.elimination.monomials import divides
 from singsym.polynomials import Polynomial, Ring
 
 _PRIME = 2**31 - 1
@@ -35,13 +36,9 @@ def seems_to_contain(basis: Basis, polynomials: Sequence[Polynomial]) -> bool:
     """
     more = tuple(p for p in polynomials if p)
     leading = [p.value.monomial(0) for p in basis]
-    if any(not any(_divides(m, p.value.monomial(0)) for m in leading) for p in more):
+    if any(not any(divides(m, p.value.monomial(0)) for m in leading) for p in more):
         return False
     return not more or _basis(basis[0].ring, (*basis, *more)) in (basis, None)
-
-
-def _divides(m: Sequence[int], other: Sequence[int]) -> bool:
-    return all(a <= b for a, b in zip(m, other, strict=True))
 
 
 def _basis(ring: Ring, generators: Sequence[Polynomial]) -> Basis | None:

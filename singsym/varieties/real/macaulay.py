@@ -12,6 +12,7 @@ from math import lcm
 from flint import fmpq, fmpq_mat, nmod_mat
 
 from singsym.elimination.ideal import Ideal
+from singsym.elimination.monomials import divides
 from singsym.polynomials import Polynomial
 from singsym.varieties.real.quotient import Algebra, Check, Monomial, degrevlex
 
@@ -69,7 +70,7 @@ class _Rows:
         size = len(self.ring.names)
         while len(self.layers) <= degree:
             grown = {(*m[:i], m[i] + 1, *m[i + 1 :]) for m in self.layers[-1] for i in range(size)}
-            kept = [m for m in grown if not any(_divides(h, m) for h in self.rules)]
+            kept = [m for m in grown if not any(divides(h, m) for h in self.rules)]
             self.layers.append(sorted(kept, key=degrevlex))
         for k, f in enumerate(self.hard):
             for layer in self.layers[: degree - self.degrees[k] + 1]:
@@ -100,7 +101,7 @@ class _Rows:
             return known
         if m in self.rules:
             found = self.rules[m]
-        elif not any(_divides(h, m) for h in self.rules):
+        elif not any(divides(h, m) for h in self.rules):
             found = {m: fmpq(1)}
         else:
             i, rest = self._reducible_part(m)
@@ -112,7 +113,7 @@ class _Rows:
         for i, e in enumerate(m):
             if e:
                 rest = (*m[:i], e - 1, *m[i + 1 :])
-                if any(_divides(h, rest) for h in self.rules):
+                if any(divides(h, rest) for h in self.rules):
                     return i, rest
         raise ArithmeticError(f"{m} is a leading monomial that no rule has")
 
@@ -220,10 +221,6 @@ class _Rows:
 
 def _terms(polynomial: Polynomial) -> list[tuple[Monomial, fmpq]]:
     return [(tuple(map(int, m)), c) for m, c in polynomial.terms()]
-
-
-def _divides(m: Monomial, t: Monomial) -> bool:
-    return all(a <= b for a, b in zip(m, t, strict=True))
 
 
 def _modular(vectors: Sequence[Vector], columns: Sequence[Monomial]) -> nmod_mat:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from flint import fmpq, fmpq_mat
 
+from singsym.elimination.monomials import divides
 from singsym.polynomials import Polynomial, Ring
 
 Monomial = tuple[int, ...]
@@ -55,7 +56,7 @@ def standard_monomials(leading: Sequence[Monomial], size: int) -> list[Monomial]
     found: list[Monomial] = []
     layer: set[Monomial] = {(0,) * size}
     while layer:
-        layer = {t for t in layer if not any(_divides(m, t) for m in leading)}
+        layer = {t for t in layer if not any(divides(m, t) for m in leading)}
         found.extend(sorted(layer, key=degrevlex))
         layer = {(*t[:i], t[i] + 1, *t[i + 1 :]) for t in layer for i in range(size)}
     return found
@@ -111,10 +112,6 @@ def _step_down(t: Monomial, forms: dict[Monomial, fmpq_mat]) -> tuple[int, Monom
             if rest in forms:
                 return i, rest
     raise ValueError(f"{t} is no border monomial: the basis is not a reduced Groebner basis in degrevlex")
-
-
-def _divides(m: Monomial, t: Monomial) -> bool:
-    return all(a <= b for a, b in zip(m, t, strict=True))
 
 
 def degrevlex(m: Monomial) -> tuple[int, Monomial]:

@@ -46,6 +46,9 @@ _CAPS = (150, 500, 1500)
 # bits of arithmetic, some seconds, above which a "modular" answer is checked modulo primes only
 _EXACT_COST = 2e9
 
+# the same of all these equations together, above which they are not checked for a proof either
+_PROOF_COST = 1e11
+
 
 def real_points(
     equations: Ideal | Sequence[Polynomial], budget: Budget | None = None
@@ -74,8 +77,8 @@ def solve(equations: Sequence[Polynomial], budget: Budget | None = None) -> Para
 
     FLINT's basis first where it takes milliseconds, then msolve's parametrisation where it is there, then the
     easy equations' basis with the hard ones by linear algebra, then any engine's basis.  Every point is
-    proven by substitution, modulo primes where that is too dear and `certainty` is "modular" anyway; that
-    none is missing is proven where `certainty` is "proven".
+    proven by substitution, modulo primes where that is too dear and `certainty` stays "modular"; that none is
+    missing is proven where `certainty` is "proven".
     """
     budget = current(budget)
     ring = equations[0].ring.with_names(equations[0].ring.names, "degrevlex")
@@ -166,13 +169,18 @@ def _by_msolve(ring: Ring, system: Sequence[Polynomial], budget: Budget) -> Para
 def _is_known_complete(
     found: Parametrization, system: tuple[Polynomial, ...], seconds: float, check: Check
 ) -> bool:
-    """Whether these are all points, where a basis over Q is found quickly.
+    """Whether these are proven to be all points, where a basis over Q is found quickly.
 
-    seconds: how long the search for them took.
+    seconds: how long the search for them took; `_holds` has checked other equations exactly.
     """
+    dear = [f for f in system if found.cost_of(f) >= _EXACT_COST]
+    if sum(map(found.cost_of, dear)) > _PROOF_COST:
+        return False
     task = engines.Task("groebner", found.ring, system)
     basis = over_rationals(task, seconds, short=found.minimal.degree() == 0)
-    return basis is not None and is_complete(found, basis, check)
+    return (
+        basis is not None and is_complete(found, basis, check) and all(found.vanishes(f, check) for f in dear)
+    )
 
 
 def _holds(found: Parametrization, equation: Polynomial, budget: Budget) -> bool:

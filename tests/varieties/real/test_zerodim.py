@@ -8,9 +8,10 @@ import pytest
 
 from singsym.elimination import engines
 from singsym.elimination.budget import Budget, Undecided
-from singsym.elimination.engines.registry import msolve
+from singsym.elimination.engines.registry import msolve, singular
 from singsym.elimination.memo import forget
 from singsym.polynomials import AlgebraicConstant, Polynomial, Ring
+from singsym.varieties.real import zerodim
 from singsym.varieties.real.macaulay import quotient_algebra_over
 from singsym.varieties.real.parametrization import reconstruct
 from singsym.varieties.real.zerodim import Ideal, NotZeroDimensional, real_points, solve
@@ -170,6 +171,19 @@ def test_stewart_gough_has_forty_poses():
     boxes = msolve.real_boxes(equations, equations[0].ring)
     assert len(points) == len(boxes) > 0
     assert all(p.sign(f) == 0 for p in points for f in equations[:2])
+
+
+@pytest.mark.engines
+@pytest.mark.skipif(not (msolve.available() and singular.available()), reason="needs msolve and Singular")
+def test_points_that_were_checked_modulo_primes_only_are_not_proven(monkeypatch):
+    equations = [x**2 + y**2 + z**2 - 3, x * y - z, x - y + z**2 - 1]
+    monkeypatch.setattr(zerodim, "_CAPS", (1, 1, 1))
+    monkeypatch.setattr(zerodim, "_EXACT_COST", 0)
+    with engines.use():
+        assert solve(equations).certainty == "proven"
+        forget()
+        monkeypatch.setattr(zerodim, "_PROOF_COST", 0)
+        assert solve(equations).certainty == "modular"
 
 
 def test_hard_equations_over_easy_ones_agree_with_the_whole_basis(linkage):
