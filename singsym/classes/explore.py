@@ -267,12 +267,12 @@ def is_proven_empty(system: RealSystem) -> bool:
     """Whether it is quickly proven that there is no real point."""
     chart = Cartesian.of(system)
     try:
-        with current().part(EMPTINESS_SECONDS):
+        with current().part(EMPTINESS_SECONDS * engines.proof_patience()):
             if chart.is_empty():
                 return True
     except Undecided:
         pass
-    budget = current().part(REAL_EMPTINESS_SECONDS)
+    budget = current().part(REAL_EMPTINESS_SECONDS * engines.proof_patience())
     return noted_if_true(lambda: is_empty_over_reals(chart.trimmed, budget, tries=0).is_yes)
 
 

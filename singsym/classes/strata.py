@@ -17,6 +17,7 @@ from math import comb, prod
 
 from singsym.classes.patches import Patch
 from singsym.classes.types import Defects, SingularityType
+from singsym.elimination import engines
 from singsym.elimination.budget import Undecided
 from singsym.elimination.ideal import Ideal
 from singsym.kinematics.nonzero import Certifier
@@ -117,7 +118,7 @@ class Ground:
         if self.system is None:
             return None
         chart = Cartesian.of(self.system)
-        return chart, chart.based(MEMBERSHIP_SECONDS)
+        return chart, chart.based(MEMBERSHIP_SECONDS * engines.proof_patience())
 
     @property
     def equations(self) -> tuple[Polynomial, ...]:

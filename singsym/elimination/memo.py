@@ -32,7 +32,7 @@ if hasattr(os, "register_at_fork"):
 
 
 def _full(question: str, key: Hashable) -> Hashable:
-    return question, key, engines.allowed(), engines.is_patient()
+    return question, key, engines.allowed(), engines.proof_patience()
 
 
 def remember(question: str, key: Hashable, compute: Callable[[], Value]) -> Value:

@@ -59,7 +59,7 @@ _PATIENT = 10.0
 _FEW_TERMS, _FEW_BITS = 200, 32
 
 _allowed: ContextVar[tuple[str, ...]] = ContextVar("engines", default=_DEFAULT)
-_patient: ContextVar[bool] = ContextVar("patient", default=False)
+_proof_patience: ContextVar[float] = ContextVar("proof patience", default=1.0)
 
 
 @contextmanager
@@ -95,19 +95,19 @@ def patiently() -> Iterator[None]:
     """Proofs over Q of what is known modulo primes may take much longer for the work inside.
 
     >>> with patiently():
-    ...     is_patient()
-    True
+    ...     proof_patience()
+    10.0
     """
-    token = _patient.set(True)
+    token = _proof_patience.set(_PATIENT)
     try:
         yield
     finally:
-        _patient.reset(token)
+        _proof_patience.reset(token)
 
 
-def is_patient() -> bool:
-    """Whether proofs are waited for longer here."""
-    return _patient.get()
+def proof_patience() -> float:
+    """So many times as long as usual proofs are waited for here."""
+    return _proof_patience.get()
 
 
 def has(name: str) -> bool:
@@ -223,10 +223,9 @@ def over_rationals(
     if not has(engine.name):
         return None
     kind = "slim" if short and engine is singular else "groebner"
-    patience = _SHORT_PROOF if short else min(max(_PROOF_FACTOR * seconds, _LEAST_PROOF), _MOST_PROOF)
-    patience *= _PATIENT if is_patient() else 1
+    usual = _SHORT_PROOF if short else min(max(_PROOF_FACTOR * seconds, _LEAST_PROOF), _MOST_PROOF)
     try:
-        return engine.run(replace(task, kind=kind), current(budget).part(patience)).ideals[0]
+        return engine.run(replace(task, kind=kind), current(budget).part(usual * proof_patience())).ideals[0]
     except (EngineFailure, BudgetExceeded) as failure:
         log.debug("no proof: %s", failure)
         return None
