@@ -81,7 +81,7 @@ class Ideal:
         if self.ring.order != "lex":
             return self._basis(budget)
         graded = self.ring.with_names(self.ring.names, "degrevlex")
-        return groebner_basis(graded, [graded.from_dict(dict(g.terms())) for g in self.generators], budget)
+        return groebner_basis(graded, list(map(graded.convert, self.generators)), budget)
 
     def groebner_basis(self, budget: Budget | None = None) -> tuple[Polynomial, ...]:
         """The reduced Groebner basis in the ring's order, primitive, smallest leading monomial first."""
@@ -201,7 +201,7 @@ class Ideal:
 
         def compute() -> tuple[Basis, int]:
             graded = self.ring.with_names(self.ring.names, "degrevlex")
-            generators = [graded.from_dict(dict(g.terms())) for g in self._canonical()]
+            generators = list(map(graded.convert, self._canonical()))
             rest, made = substitute_solved(generators)
             return groebner_basis(graded, rest, budget), len(self.ring.names) - len(made)
 
@@ -280,7 +280,7 @@ class Ideal:
         for name in chosen:
             self.ring.index(name)
         graded = self.ring.with_names(self.ring.names, "degrevlex")
-        found = eliminate(graded, [_moved(g, graded) for g in self._canonical()], chosen, current(budget))
+        found = eliminate(graded, list(map(graded.convert, self._canonical())), chosen, current(budget))
         return self._from(*found)
 
     def restrict(self, ring: Ring) -> Ideal:
@@ -308,12 +308,12 @@ class Ideal:
 
     def _saturated_by(self, factor: Polynomial, budget: Budget) -> Ideal:
         graded = self.ring.with_names(self.ring.names, "degrevlex")
-        generators = [_moved(g, graded) for g in self._canonical()]
-        larger, system = without_zeros_of(graded, generators, _moved(factor, graded))
+        generators = list(map(graded.convert, self._canonical()))
+        larger, system = without_zeros_of(graded, generators, graded.convert(factor))
         try:
             return self._from(*eliminate(larger, system, {larger.names[0]}, budget))
         except engines.EngineFailure:
-            task = engines.Task("saturate", graded, tuple(generators), (_moved(factor, graded),))
+            task = engines.Task("saturate", graded, tuple(generators), (graded.convert(factor),))
             answer = engines.solve(task, budget)
             return self._from(answer.ideals[0], answer.certainty)
 
@@ -357,11 +357,6 @@ class Ideal:
     def _same_ring(self, other: Polynomial | Ideal) -> None:
         if other.ring != self.ring:
             raise ValueError(f"{other!r} is in {other.ring!r}, not in {self.ring!r}: convert it first")
-
-
-def _moved(polynomial: Polynomial, ring: Ring) -> Polynomial:
-    """The polynomial in a ring of the same names and another order."""
-    return ring.from_dict(dict(polynomial.terms()))
 
 
 def _fresh(ring: Ring) -> str:
