@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from operator import attrgetter
 
 from singsym.classes.patches import Patch, patches, unsplit
 from singsym.classes.strata import Ground, Least, NotEvident, RankProblem, Stratum, ranked
@@ -309,7 +310,7 @@ class SingularLoci:
 def search(
     root: Branch, runner: Runner, singular: SingularLoci | None = None, budget: Budget | None = None
 ) -> Exploration:
-    """All strata of a branch, level by level; every level's branches are independent tasks.
+    """All strata of a branch; a branch is searched as soon as the one that it follows from has been.
 
     singular: where known, the strata that need no search are written down at once, as steps (4)-(6) of the
         paper do, and only the zeros of (4) or of (5) are searched.
@@ -317,28 +318,21 @@ def search(
     The result does not depend on the runner's executor: branches keep their order.
     """
     found: list[Found] = []
-    frontier: Sequence[Branch] = (root,)
+    first: Sequence[Branch] = (root,)
     if singular is not None:
-        found, frontier = _started(root, singular)
-    evident = frontier[0].evident if frontier else ()
+        found, first = _started(root, singular)
+    evident = first[0].evident if first else ()
     whole = budget or Budget()
     unexplored: list[tuple[Branch, str]] = []
     modular: list[tuple[Branch, Explored]] = []
-    level = 0
-    while frontier:
-        level += 1
-        results = runner.map_within(explore, frontier, f"strata, level {level}", whole)
-        following: list[Branch] = []
-        for branch, explored in zip(frontier, results, strict=True):
-            if explored is None:
-                unexplored.append((branch, f"the budget of {whole.seconds:g} s for the search is used up"))
-                continue
-            if explored.certainty != "proven":
-                modular.append((branch, explored))
-            unexplored += [(branch, reason) for reason in explored.undecided]
-            found += explored.found
-            following += explored.following
-        frontier = following
+    for branch, explored in runner.grow(explore, first, attrgetter("following"), "strata", whole):
+        if explored is None:
+            unexplored.append((branch, f"the budget of {whole.seconds:g} s for the search is used up"))
+            continue
+        if explored.certainty != "proven":
+            modular.append((branch, explored))
+        unexplored += [(branch, reason) for reason in explored.undecided]
+        found += explored.found
     return Exploration(tuple(found), tuple(unexplored), evident, _proven(modular, runner, whole))
 
 

@@ -14,12 +14,13 @@ import pickle
 import signal
 import sys
 import tempfile
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import Executor, Future, ProcessPoolExecutor, as_completed
+from collections import deque
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
 from fractions import Fraction
 from pathlib import Path
 from types import TracebackType
-from typing import Any, TypeVar
+from typing import Any, Generic, TypeVar
 
 from singsym.elimination import engines, progress
 from singsym.elimination.budget import Budget
@@ -115,11 +116,6 @@ def _with_engines(allowed: tuple[str, ...], function: Callable[[T], R], task: T)
         return function(task)
 
 
-def _call_off(futures: Iterable[Future[Any]]) -> None:
-    for future in futures:
-        future.cancel()
-
-
 @dataclasses.dataclass
 class Runner:
     """Maps a function over tasks: in this process, or on an executor, looking into the cache first.
@@ -138,63 +134,129 @@ class Runner:
         >>> Runner().map(abs, [-1, 2], "abs")
         [1, 2]
         """
-        results = self._run(function, tasks, stage, Budget())
-        return [results[i] for i in range(len(tasks))]
+        results = self._run(function, tasks, stage, Budget(), _none)
+        return [results[(i,)] for i in range(len(tasks))]
 
     def map_within(
         self, function: Callable[[T], R], tasks: Sequence[T], stage: str, budget: Budget
     ) -> list[R | None]:
         """The same, with None for tasks that were not finished when the budget was used up."""
-        results = self._run(function, tasks, stage, budget)
-        return [results.get(i) for i in range(len(tasks))]
+        results = self._run(function, tasks, stage, budget, _none)
+        return [results.get((i,)) for i in range(len(tasks))]
+
+    def grow(
+        self,
+        function: Callable[[T], R],
+        tasks: Sequence[T],
+        following: Callable[[R], Sequence[T]],
+        stage: str,
+        budget: Budget,
+    ) -> list[tuple[T, R | None]]:
+        """Tasks and their results, with those of the tasks that follow from results, and so on.
+
+        In the order of generations and, within each, of the tasks they follow from; None for tasks that were
+        not finished when the budget was used up.
+
+        >>> Runner().grow(abs, [-2], lambda n: [n - 1] if n else [], "down", Budget())
+        [(-2, 2), (1, 1), (0, 0)]
+        """
+        results = self._run(function, tasks, stage, budget, following)
+        grown: dict[Place, T] = {(i,): task for i, task in enumerate(tasks)}
+        for place in sorted(results, key=_generation):
+            grown |= {(*place, i): task for i, task in enumerate(following(results[place]))}
+        return [(grown[place], results.get(place)) for place in sorted(grown, key=_generation)]
 
     def _run(
-        self, function: Callable[[T], R], tasks: Sequence[T], stage: str, budget: Budget
-    ) -> dict[int, R]:
-        results: dict[int, R] = {}
-        paths: dict[int, Path] = {}
-        if self.cache is not None:
-            for i, task in enumerate(tasks):
-                paths[i] = self.cache.path(function, task)
-                found = self.cache.get(paths[i])
-                if found is not None:
-                    results[i] = found
-        waiting = [i for i in range(len(tasks)) if i not in results]
-        progress.report(stage, done=len(results), total=len(tasks))
-        finished = self._scattered if self.executor is not None and waiting else self._in_turn
-        for i, result in finished(function, tasks, waiting, budget):
-            results[i] = result
-            if self.cache is not None and not getattr(result, "provisional", False):
-                self.cache.put(paths[i], result)
-            progress.report(stage, done=len(results), total=len(tasks))
-        return results
-
-    def _in_turn(
-        self, function: Callable[[T], R], tasks: Sequence[T], waiting: Sequence[int], budget: Budget
-    ) -> Iterator[tuple[int, R]]:
-        for i in waiting:
-            yield i, function(tasks[i])
-            if budget.remaining() == 0.0:
-                return
-
-    def _scattered(
-        self, function: Callable[[T], R], tasks: Sequence[T], waiting: Sequence[int], budget: Budget
-    ) -> Iterator[tuple[int, R]]:
-        assert self.executor is not None
-        allowed = engines.allowed()
-        futures: dict[Future[R], int] = {
-            self.executor.submit(_with_engines, allowed, function, tasks[i]): i for i in waiting
-        }
+        self,
+        function: Callable[[T], R],
+        tasks: Sequence[T],
+        stage: str,
+        budget: Budget,
+        following: Callable[[R], Sequence[T]],
+    ) -> dict[Place, R]:
+        """The results by the places of the tasks in the tree of what follows from what."""
+        results: dict[Place, R] = {}
+        work = _Queue(function, self.executor)
+        new: list[tuple[Place, T]] = [((i,), task) for i, task in enumerate(tasks)]
+        total = 0
         try:
-            for future in as_completed(futures):
-                yield futures[future], future.result()
-                if budget.remaining() == 0.0:
-                    break
+            while True:
+                total += len(new)
+                arrived: list[tuple[Place, R]] = []
+                for place, task in new:
+                    path = None if self.cache is None else self.cache.path(function, task)
+                    known = self._known(path)
+                    if known is None:
+                        work.put(place, path, task)
+                    else:
+                        arrived.append((place, known))
+                progress.report(stage, done=len(results) + len(arrived), total=total)
+                if not arrived:
+                    if not work or (results and budget.remaining() == 0.0):
+                        break
+                    for place, path, result in work.finished():
+                        self._keep(path, result)
+                        arrived.append((place, result))
+                results.update(arrived)
+                new = [((*p, i), task) for p, r in arrived for i, task in enumerate(following(r))]
         except Exception:
-            _call_off(futures)
+            work.call_off()
             raise
         # not on an interruption: a pool whose processes die while futures are cancelled never ends
-        _call_off(futures)
+        work.call_off()
+        return results
+
+    def _known(self, path: Path | None) -> Any | None:
+        return None if self.cache is None or path is None else self.cache.get(path)
+
+    def _keep(self, path: Path | None, result: Any) -> None:
+        if self.cache is not None and path is not None and not getattr(result, "provisional", False):
+            self.cache.put(path, result)
+
+
+Place = tuple[int, ...]
+"""Which task: its number among the first ones, or among those that follow from the task at `place[:-1]`."""
+
+
+def _generation(place: Place) -> tuple[int, Place]:
+    return len(place), place
+
+
+def _none(result: object) -> tuple[()]:
+    return ()
+
+
+class _Queue(Generic[T, R]):
+    """Tasks that wait or are at work, and the results of those that have ended."""
+
+    def __init__(self, function: Callable[[T], R], executor: Executor | None) -> None:
+        self.function = function
+        self.executor = executor
+        self.allowed = engines.allowed()
+        self.waiting: deque[tuple[Place, Path | None, T]] = deque()
+        self.running: dict[Future[R], tuple[Place, Path | None]] = {}
+
+    def __bool__(self) -> bool:
+        return bool(self.waiting or self.running)
+
+    def put(self, place: Place, path: Path | None, task: T) -> None:
+        if self.executor is None:
+            self.waiting.append((place, path, task))
+        else:
+            future = self.executor.submit(_with_engines, self.allowed, self.function, task)
+            self.running[future] = (place, path)
+
+    def finished(self) -> list[tuple[Place, Path | None, R]]:
+        """At least one result, as soon as there is one; without an executor, that of the next task."""
+        if self.executor is None:
+            place, path, task = self.waiting.popleft()
+            return [(place, path, self.function(task))]
+        done, _ = wait(self.running, return_when=FIRST_COMPLETED)
+        return [(*self.running.pop(future), future.result()) for future in done]
+
+    def call_off(self) -> None:
+        for future in self.running:
+            future.cancel()
 
 
 class _Processes(ProcessPoolExecutor):

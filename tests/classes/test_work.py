@@ -13,6 +13,7 @@ import pytest
 
 from singsym.classes.work import Cache, Runner, fingerprint, processes
 from singsym.elimination import engines
+from singsym.elimination.budget import Budget
 from singsym.polynomials import Ring
 
 
@@ -72,6 +73,29 @@ def threads() -> Iterator[Executor]:
 
 def test_results_keep_the_order_of_tasks(threads: Executor) -> None:
     assert Runner(threads).map(slow_then_fast, range(6), "test") == list(range(6))
+
+
+def halves(x: int) -> tuple[int, ...]:
+    return (x // 2, x - x // 2) if x > 1 else ()
+
+
+def test_what_follows_from_results_keeps_its_order(threads: Executor, tmp_path: Path) -> None:
+    def grown(runner: Runner) -> list[tuple[int, int | None]]:
+        return runner.grow(slow_then_fast, [0, 5], halves, "test", Budget())
+
+    alone = [(0, 0), (5, 5), (2, 2), (3, 3), (1, 1), (1, 1), (1, 1), (2, 2), (1, 1), (1, 1)]
+    assert grown(Runner()) == alone
+    assert grown(Runner(threads, Cache(tmp_path))) == alone
+    assert grown(Runner(threads, Cache(tmp_path))) == alone
+
+
+def test_a_budget_leaves_tasks_without_result() -> None:
+    assert Runner().grow(slow_then_fast, [4, 0], halves, "test", Budget(0)) == [
+        (4, 4),
+        (0, None),
+        (2, None),
+        (2, None),
+    ]
 
 
 def test_second_run_computes_nothing(tmp_path: Path) -> None:
