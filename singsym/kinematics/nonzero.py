@@ -11,12 +11,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from functools import reduce as fold
-from math import inf, isqrt
-
-from flint import fmpq
+from math import inf
 
 from singsym.kinematics.placement import ConfigurationSpace
 from singsym.polynomials import Polynomial
+from singsym.polynomials.ranges import EVERYTHING, Interval, fraction, meet, polynomial_range, root_above
 
 LONGEST = 400
 """Polynomials with more terms are not treated modulo the equations."""
@@ -24,14 +23,8 @@ LONGEST = 400
 LONGEST_SUM = 40
 """The sign of longer sums is not looked for."""
 
-Bound = Fraction | float
-Interval = tuple[Bound, Bound]
 Divisors = tuple[tuple[Polynomial, str], ...]
 """Polynomials, each with the variable in which it is divided by it."""
-
-
-def _fraction(number: fmpq) -> Fraction:
-    return Fraction(int(number.p), int(number.q))
 
 
 def remainder(polynomial: Polynomial, divisor: Polynomial, name: str) -> Polynomial:
@@ -210,7 +203,7 @@ class Certifier:
         if self._is_positive_sum(polynomial) or self._is_positive_sum(-polynomial):
             return f"{short_text(polynomial)}, whose terms have one sign and do not all vanish"
         if not self._straddles_zero(polynomial):
-            low, high = _range(polynomial, self._bounds)
+            low, high = polynomial_range(polynomial, self._bounds)
             if low > 0 or high < 0:
                 return f"between {low} and {high} on the configuration space"
         if is_definite(polynomial) or is_definite(-polynomial):
@@ -246,12 +239,12 @@ class Certifier:
     @cached_property
     def _bounds(self) -> Mapping[str, Interval]:
         """An interval for each variable: from sums of squares, from limits, from constants."""
-        bounds: dict[str, Interval] = dict.fromkeys(self.space.ring.names, (-inf, inf))
+        bounds: dict[str, Interval] = dict.fromkeys(self.space.ring.names, EVERYTHING)
         for equation, names in self._squares[len(self.space.ring.constants) :]:
             for name in names:
-                square = -_fraction(equation.constant) / _fraction(equation.coefficient(name, 2).constant)
-                root = _root_above(square)
-                bounds[name] = _meet(bounds[name], (-root, root))
+                square = -fraction(equation.constant) / fraction(equation.coefficient(name, 2).constant)
+                root = root_above(square)
+                bounds[name] = meet(bounds[name], (-root, root))
         for constant in self.space.ring.constants:
             bounds[constant.name] = (constant.low, constant.high)
         for bound in (*self.space.positive, *self.space.nonnegative):
@@ -261,9 +254,9 @@ class Certifier:
             slope = bound.coefficient(names[0], 1)
             if slope.is_constant:
                 rest = bound - slope * bound.ring.gen(names[0])
-                ends = [-x / _fraction(slope.constant) for x in _range(rest, bounds)]
+                ends = [-x / fraction(slope.constant) for x in polynomial_range(rest, bounds)]
                 limit = (min(ends), inf) if slope.constant > 0 else (-inf, max(ends))
-                bounds[names[0]] = _meet(bounds[names[0]], limit)
+                bounds[names[0]] = meet(bounds[names[0]], limit)
         return bounds
 
     @cached_property
@@ -308,48 +301,6 @@ class Certifier:
         return found
 
 
-def _range(polynomial: Polynomial, bounds: Mapping[str, Interval]) -> Interval:
-    """Bounds of the polynomial by interval arithmetic, exact rationals or infinite."""
-    low: Bound = Fraction(0)
-    high: Bound = Fraction(0)
-    intervals = [bounds[name] for name in polynomial.ring.names]
-    for exponents, c in polynomial.terms():
-        term: Interval = (_fraction(c), _fraction(c))
-        for interval, e in zip(intervals, exponents, strict=True):
-            if e:
-                term = _product(term, _power(interval, int(e)))
-        low, high = low + term[0], high + term[1]
-    return low, high
-
-
-def _meet(a: Interval, b: Interval) -> Interval:
-    return max(a[0], b[0]), min(a[1], b[1])
-
-
-def _root_above(square: Fraction) -> Fraction:
-    """A rational not below the square root, equal to it where it is rational."""
-    p, q = square.numerator, square.denominator
-    root = isqrt(p * q)
-    return Fraction(root if root * root == p * q else root + 1, q)
-
-
-def _times(a: Bound, b: Bound) -> Bound:
-    return Fraction(0) if a == 0 or b == 0 else a * b
-
-
-def _product(a: Interval, b: Interval) -> Interval:
-    products = [_times(x, y) for x in a for y in b]
-    return min(products), max(products)
-
-
-def _power(interval: Interval, exponent: int) -> Interval:
-    low, high = interval
-    if exponent % 2 or low >= 0:
-        return low**exponent, high**exponent
-    top = max(low**exponent, high**exponent)
-    return (min(low**exponent, high**exponent), top) if high < 0 else (Fraction(0), top)
-
-
 def is_definite(polynomial: Polynomial) -> bool:
     """Whether a polynomial of degree 2 is a sum of squares plus a positive constant, by exact elimination.
 
@@ -367,8 +318,8 @@ def is_definite(polynomial: Polynomial) -> bool:
     for exponents, c in polynomial.terms():
         where = [places[i] for i, e in enumerate(exponents) for _ in range(e)]
         i, j = (*where, size - 1, size - 1)[:2]
-        form[i][j] += _fraction(c) / 2
-        form[j][i] += _fraction(c) / 2
+        form[i][j] += fraction(c) / 2
+        form[j][i] += fraction(c) / 2
     for k in range(size - 1):
         pivot = form[k][k]
         if pivot < 0 or (pivot == 0 and any(form[k][k:])):

@@ -18,6 +18,9 @@ from flint import fmpq, fmpq_mat
 
 from singsym.polynomials import AlgebraicConstant, Polynomial, Ring
 
+_FINENESS = 2**24
+"""Constants are told apart from their conjugates by intervals about as narrow as its inverse."""
+
 
 class Atoms:
     """Irrational numbers met while reading expressions: square roots, cosines of rational angles, others."""
@@ -130,8 +133,8 @@ def number_field(atoms: Atoms) -> NumberField:
         AlgebraicConstant(
             f"sqrt{d}",
             (-d, 0, 1),
-            Fraction(isqrt(d)),
-            Fraction(isqrt(d) + 1),
+            Fraction(isqrt(d * _FINENESS**2), _FINENESS),
+            Fraction(isqrt(d * _FINENESS**2) + 1, _FINENESS),
             rf"\sqrt{{{d}}}",
             f"sqrt({d})",
         )
@@ -246,7 +249,7 @@ def _isolated(name: str, number: Any, minimal: Any) -> AlgebraicConstant:
     width = Fraction(1, 4)
     while minimal.count_roots(sympy.Rational(value - width), sympy.Rational(value + width)) != 1:
         width /= 4
-    width = max(width / 4, Fraction(1, 10**50))
+    width = max(min(width / 4, Fraction(1, _FINENESS)), Fraction(1, 10**50))
     low = Fraction(int((value - width) * 10**50) - 1, 10**50).limit_denominator(10**6)
     high = Fraction(int((value + width) * 10**50) + 1, 10**50).limit_denominator(10**6)
     if not low < value < high or minimal.count_roots(sympy.Rational(low), sympy.Rational(high)) != 1:

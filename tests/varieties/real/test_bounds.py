@@ -4,7 +4,7 @@ from fractions import Fraction
 
 from singsym.elimination.budget import Budget
 from singsym.polynomials import Ring
-from singsym.varieties.real.bounds import sign_within, solution_bounds
+from singsym.varieties.real.bounds import extreme_values, sign_within, solution_bounds
 from singsym.varieties.real.emptiness import is_empty_over_reals
 from singsym.varieties.real.squares import squares_less_constant
 from singsym.varieties.real.witness import RealSystem
@@ -40,3 +40,17 @@ def test_a_joint_out_of_reach_at_once(linkage):
     assert is_empty_over_reals(RealSystem(linkage.ring, linkage.loops, positive=(reach,)), Budget(5)).is_yes
     touching = RealSystem(linkage.ring, linkage.loops[:1], positive=(reach + Fraction(9, 10),))
     assert is_empty_over_reals(touching, Budget(20)).is_yes
+
+
+def test_extremes_of_a_range_that_is_not_symmetric() -> None:
+    # (x - 1)^2 <= 4 gives -1 <= x <= 3, and -x - 1 = 0 holds at the end x = -1 only: not where x^2 = 9
+    bounds = solution_bounds(R, [(x - 1) ** 2 + y**2 - 4])
+    assert bounds is not None
+    assert extreme_values(-x - 1, bounds) == (-x - 1,)
+
+
+def test_a_vector_bounds_its_parts_by_its_length() -> None:
+    # x^2 + y^2 = z^2 and z^2 <= 4: at x = 2 nothing is left for y
+    bounds = solution_bounds(R, [z**2 - 4, x - 2, x**2 + y**2 - z**2])
+    assert bounds is not None
+    assert bounds["y"] == (0, 0)
