@@ -19,6 +19,7 @@ from singsym.varieties.real.bounds import extreme_values, sign_within, solution_
 from singsym.varieties.real.critical import component_samples
 from singsym.varieties.real.points import RealPoint
 from singsym.varieties.real.roots import has_real_root
+from singsym.varieties.real.sampling import numerical_points
 from singsym.varieties.real.squares import sum_of_squares
 from singsym.varieties.real.witness import RealSystem, Witness, find_witness
 from singsym.varieties.real.zerodim import real_points
@@ -97,7 +98,7 @@ def _component_verdict(
         return Verdict.yes(reason="a polynomial in one variable has no real root")
     if _contradiction(component, system) or _out_of_bounds(system, (*equations, *component.generators)):
         return Verdict.yes(reason="a condition contradicts sums of squares")
-    forced = _real_consequences(piece, component.generators)
+    forced = _real_consequences(piece, component.generators, equations)
     if forced is None:
         return Verdict.yes(reason="a sum of squares with a positive constant is zero")
     if not all(component.vanishes(f) for f in forced):
@@ -124,8 +125,13 @@ def _from_points(points: Sequence[RealPoint], system: RealSystem, what: str) -> 
 # -- cheap certificates --------------------------------------------------------------------------------
 
 
-def _real_consequences(system: RealSystem, equations: Sequence[Polynomial]) -> list[Polynomial] | None:
-    """What sums of squares, or terms at their bounds, force to vanish; `None` for a sum with a constant."""
+def _real_consequences(
+    system: RealSystem, equations: Sequence[Polynomial], others: Sequence[Polynomial] = ()
+) -> list[Polynomial] | None:
+    """What sums of squares, or terms at their bounds, force to vanish; `None` where that cannot be.
+
+    others: further equations, used for bounds only.
+    """
     forced: list[Polynomial] = []
     for f in _combinations(equations):
         squares = sum_of_squares(f)
@@ -136,8 +142,11 @@ def _real_consequences(system: RealSystem, equations: Sequence[Polynomial]) -> l
             return None
         if len(roots) > 1:
             forced.extend(roots)
-    bounds = solution_bounds(system.ring, equations) or {}
-    return [*forced, *(p for f in equations for p in extreme_values(f, bounds))]
+    together = tuple(dict.fromkeys((*equations, *others)))
+    bounds = solution_bounds(system.ring, together)
+    if bounds is None:
+        return None
+    return [*forced, *(p for f in together for p in extreme_values(f, bounds))]
 
 
 def _out_of_bounds(system: RealSystem, equations: Sequence[Polynomial]) -> bool:
@@ -186,14 +195,21 @@ def _no_real_coordinate(component: Component) -> bool:
 def _by_samples(
     component: Component, system: RealSystem, equations: Sequence[Polynomial], budget: Budget
 ) -> Verdict:
-    """Points of the closed set, then of its open part where all conditions hold strictly, then of borders."""
-    points = component_samples(component, equations, budget)
-    if not points:
-        return Verdict.yes(reason="no real point is nearest to a generic one")
-    admitted = _admitted(points, system)
-    if admitted is not None:
-        return Verdict.no(witness=Witness(admitted))
-    borders = [p for p in border_polynomials(component, system) if _is_crossed(component, p, budget)]
+    """Points of the closed set, then of its open part where all conditions hold strictly, then of borders.
+
+    The closed set is only sampled where it seems to have no point, or is crossed by no border.
+    """
+    closed = RealSystem(system.ring, component.generators)
+    borders = _crossed(component, system, budget) if numerical_points(closed, 1) else None
+    if not borders:
+        points = component_samples(component, equations, budget)
+        if not points:
+            return Verdict.yes(reason="no real point is nearest to a generic one")
+        admitted = _admitted(points, system)
+        if admitted is not None:
+            return Verdict.no(witness=Witness(admitted))
+        if borders is None:
+            borders = _crossed(component, system, budget)
     if not borders:
         return Verdict.yes(reason="a condition fails on every connected component, which it does not cross")
     admitted = _admitted(component_samples(component, equations, budget, nonzero=borders), system)
@@ -221,6 +237,10 @@ def border_polynomials(component: Component, system: RealSystem) -> Iterator[Pol
             yield p
     for group in system.exclusions:
         yield group[0] if len(group) == 1 else sum((g * g for g in group), start=system.ring.zero)
+
+
+def _crossed(component: Component, system: RealSystem, budget: Budget) -> list[Polynomial]:
+    return [p for p in border_polynomials(component, system) if _is_crossed(component, p, budget)]
 
 
 def _is_crossed(component: Component, border: Polynomial, budget: Budget) -> bool:
