@@ -6,7 +6,7 @@ Source: Zlatanov, Fenton, Benhabib (1998), section 3: conditions (4), (5) and th
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from concurrent.futures import Executor
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
@@ -14,7 +14,7 @@ from functools import cached_property
 from math import inf
 
 from singsym.classes.explore import Branch, Exploration, Found, Loci, SingularLoci, search
-from singsym.classes.realise import Counted, CurveTask, Names, Realised, RealTask, count, realise
+from singsym.classes.realise import Counted, CurveTask, Names, RealTask, count, realise
 from singsym.classes.result import Classification, ClassResult, Locus, Piece, SpacePiece
 from singsym.classes.steps import excluded_in, found_in
 from singsym.classes.strata import RankProblem, Stratum
@@ -33,9 +33,9 @@ from singsym.polynomials import Polynomial
 from singsym.varieties.real.witness import RealSystem
 
 MEMBERSHIP_SECONDS = 5.0
-SHORT_SECONDS = 3.0
+SHORT_SECONDS = 1.0
 """So long each stratum is looked at before it is known whether more time is worth while."""
-LONG_SECONDS = 10.0
+LONG_SECONDS = 6.0
 """So long it is looked at where only the dimension of its class is in doubt."""
 
 
@@ -166,16 +166,17 @@ class _Work:
         tasks = [RealTask(f, self.feasible, self.names, quick, limits.memory_mb) for f in found]
         realised = self.runner.map(realise, tasks, "real points")
         known = _dimensions(piece for part in realised for piece in part.pieces)
+        least = [min(known.get(p.defects.types, 0) for p in part.pieces) for part in realised]
         doubtful = [
             i
             for i, part in enumerate(realised)
             if any(_in_doubt(p, known.get(p.defects.types)) for p in part.pieces)
         ]
+        doubtful.sort(key=lambda i: least[i])
         again = [
-            replace(
-                tasks[i],
-                seconds=min(LONG_SECONDS, whole) if _is_surface(realised[i], known) else limits.seconds,
-            )
+            replace(tasks[i], seconds=min(LONG_SECONDS, whole), known=least[i])
+            if least[i] > 1
+            else replace(tasks[i], seconds=limits.seconds)
             for i in doubtful
         ]
         for i, part in zip(doubtful, self.runner.map(realise, again, "real points, at length"), strict=True):
@@ -382,11 +383,6 @@ def _dimensions(pieces: Iterable[Piece]) -> dict[SingularityType, int]:
             types = piece.defects.types
             found[types] = max(piece.dimension, found.get(types, 0))
     return found
-
-
-def _is_surface(part: Realised, known: Mapping[SingularityType, int]) -> bool:
-    """Whether the class of some pieces is known to have dimension 2 or more."""
-    return all(known.get(p.defects.types, 0) > 1 for p in part.pieces)
 
 
 def _in_doubt(piece: Piece, known: int | None) -> bool:

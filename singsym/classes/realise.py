@@ -36,8 +36,10 @@ DIGITS = 15
 SEARCHES = 300
 """Random starts in the search for a point of a set given by independent equations."""
 
-DIMENSION_SECONDS = 10.0
+DIMENSION_SECONDS = 20.0
 """So long the dimension of a set that has a certified point is looked for."""
+BOUND_SECONDS, LONG_BOUND_SECONDS = 1.0, 5.0
+"""So long a bound is looked for where the dimension was not found, and where only a large one matters."""
 
 _BITS = 80
 
@@ -52,13 +54,17 @@ class Names:
 
 @dataclass(frozen=True)
 class RealTask:
-    """A stratum to be realised on a feasible set, within a budget."""
+    """A stratum to be realised on a feasible set, within a budget.
+
+    known: a dimension, where only a larger one of the stratum would matter.
+    """
 
     found: Found
     feasible: RealSystem
     names: Names
     seconds: float | None = None
     memory_mb: int | None = None
+    known: int | None = None
 
 
 @dataclass(frozen=True)
@@ -113,12 +119,14 @@ def realise(task: RealTask) -> Realised:
     points: Points = ()
     try:
         with Budget(task.seconds, task.memory_mb), certainties() as seen:
+            if task.known is not None:
+                _refuse_small(system, task.known)
             piece, points = _realised(piece, system, stratum)
         if piece.verdict.is_no:
             verdict = replace(piece.verdict, certainty=weakest(piece.verdict.certainty, *seen))
             piece = replace(piece, verdict=verdict)
     except Undecided as reason:
-        piece = replace(piece, verdict=Verdict.undecided(str(reason)))
+        piece = replace(piece, verdict=Verdict.undecided(str(reason)), at_most=_bound(system, BOUND_SECONDS))
     return Realised(tuple(_images(piece, points, task)))
 
 
@@ -173,26 +181,41 @@ def _given(piece: Piece, system: RealSystem, elsewhere: tuple[Equations, ...]) -
 
 def _dependent(piece: Piece, system: RealSystem, patch: Patch) -> tuple[Piece, Points]:
     """A set given by dependent equations: its dimension by cuts, else by its components."""
+    chart, beside = _charted(system, patch)
+    cut = _cut(chart.system)
+    if cut is not None and cut.dimension < 0:
+        verdict = Verdict.no(cut.certainty, reason="there is no complex solution")
+        return replace(piece, verdict=verdict, dimension=-1), ()
+    if cut is not None and cut.point is not None and chart.faithful:
+        witness = find_witness(system, tries=SEARCHES)
+        if witness is not None:
+            found, points = _positive(piece, (cut.dimension - beside, witness))
+            if cut.certainty == "modular":
+                reason = "its dimension rests on a Groebner basis found modulo primes"
+                found = replace(found, verdict=replace(found.verdict, reason=reason))
+            return found, points
+    return _positive(piece, real_dimension(system))
+
+
+def _charted(system: RealSystem, patch: Patch) -> tuple[Cartesian, int]:
+    """A set on a patch in few variables, and how many of the ring's it leaves free there."""
     chart = Cartesian.of(restricted(system, patch))
-    beside = len(patch.solved) + chart.left_out
-    try:
-        bound = Ideal(system.ring, chart.system.closed_equations).dimension - beside
-        piece = replace(piece, at_most=bound)
-        cut = _cut(chart.system)
-        if cut is not None and cut.dimension < 0:
-            verdict = Verdict.no(cut.certainty, reason="there is no complex solution")
-            return replace(piece, verdict=verdict, dimension=-1), ()
-        if cut is not None and cut.point is not None and chart.faithful:
-            witness = find_witness(system, tries=SEARCHES)
-            if witness is not None:
-                found, points = _positive(piece, (cut.dimension - beside, witness))
-                if cut.certainty == "modular":
-                    reason = "its dimension rests on a Groebner basis found modulo primes"
-                    found = replace(found, verdict=replace(found.verdict, reason=reason))
-                return found, points
-        return _positive(piece, real_dimension(system))
-    except Undecided as reason:
-        return replace(piece, verdict=Verdict.undecided(str(reason))), ()
+    return chart, len(patch.solved) + chart.left_out
+
+
+def _refuse_small(system: RealSystem, known: int) -> None:
+    """Raise `Undecided` where the dimension is not larger than the known one."""
+    bound = _bound(system, LONG_BOUND_SECONDS)
+    if bound is not None and bound <= known:
+        raise Undecided(f"only a dimension above {known} would matter")
+
+
+def _bound(system: RealSystem, seconds: float) -> int | None:
+    """A bound of the dimension, the complex one, where it is found soon."""
+    chart, beside = _charted(system, unsplit(system.closed_equations, system.ring))
+    with suppress(Undecided), Budget(seconds):
+        return Ideal(system.ring, chart.system.closed_equations).dimension - beside
+    return None
 
 
 def _cut(system: RealSystem) -> Cut | None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from math import prod
 from typing import TYPE_CHECKING
 
@@ -101,6 +101,7 @@ def symbol_latex(name: str) -> str:
     return f"{letter}_{{{index}}}" if plain else f"{letter}_{{\\mathrm{{{index}}}}}"
 
 
+@lru_cache(maxsize=10_000)
 def polynomial_latex(polynomial: Polynomial, longest: int = 24) -> str:
     """A polynomial in LaTeX, cut after some terms with the number of those left out."""
     ring = polynomial.ring

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any
 
 import sympy
@@ -45,12 +45,17 @@ class AlgebraicConstant:
     @property
     def expression(self) -> sympy.Expr:
         """The constant as a SymPy number."""
-        x = sympy.Symbol("x")
-        polynomial = sympy.Poly(list(reversed(self.minimal)), x)
-        for index, root in enumerate(polynomial.real_roots()):
-            if sympy.Rational(self.low) <= root <= sympy.Rational(self.high):
-                return sympy.rootof(polynomial, index) if polynomial.degree() > 2 else root
-        raise ValueError(f"no real root of {polynomial} between {self.low} and {self.high}")
+        return _root(self.minimal, self.low, self.high)
+
+
+@lru_cache(maxsize=1000)
+def _root(minimal: tuple[int, ...], low: Fraction, high: Fraction) -> sympy.Expr:
+    x = sympy.Symbol("x")
+    polynomial = sympy.Poly(list(reversed(minimal)), x)
+    for index, root in enumerate(polynomial.real_roots()):
+        if sympy.Rational(low) <= root <= sympy.Rational(high):
+            return sympy.rootof(polynomial, index) if polynomial.degree() > 2 else root
+    raise ValueError(f"no real root of {polynomial} between {low} and {high}")
 
 
 @dataclass(frozen=True)

@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import isclose, pi
 
 from singsym.classes.classify import classify
+from singsym.classes.explore import Found
+from singsym.classes.realise import Names, RealTask, realise
+from singsym.classes.strata import Stratum
+from singsym.classes.types import Defects
 from singsym.classes.types import SingularityType as T
 from singsym.mechanism import load
+from singsym.polynomials import Ring
+from singsym.varieties.real.witness import RealSystem
 
 
 def test_an_extended_joint_has_its_angle_and_a_small_error() -> None:
@@ -18,3 +25,16 @@ def test_an_extended_joint_has_its_angle_and_a_small_error() -> None:
     bends = sorted(abs(float(w.joints["B"])) for w in dead.witnesses)
     assert bends[0] == 0
     assert isclose(bends[1], pi, rel_tol=1e-12)
+
+
+def test_a_stratum_below_a_known_dimension_is_left() -> None:
+    """The circle x^2 + y^2 = 1 is a curve: what is known to have a surface is not looked at again."""
+    ring = Ring(("x", "y"))
+    x, y = ring.gens
+    circle = Found((), Stratum((x**2 + y**2 - 1,), Defects(0, 0, 0, 0)))
+    task = RealTask(circle, RealSystem(ring, ()), Names())
+    (seen,) = realise(task).pieces
+    (left,) = realise(replace(task, known=2)).pieces
+    (looked_at,) = realise(replace(task, known=0)).pieces
+    assert (seen.dimension, looked_at.dimension) == (1, 1)
+    assert (left.dimension, left.at_most, left.verdict.is_undecided) == (None, 1, True)

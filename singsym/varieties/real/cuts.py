@@ -24,7 +24,7 @@ from singsym.varieties.real.witness import RealSystem, Witness, frozen_values, s
 from singsym.varieties.real.zerodim import real_points
 from singsym.varieties.splitting import factor_equations, irreducible_factors, used_ring
 
-CUT_SECONDS = 5.0
+CUT_SECONDS = 10.0
 """So long the points of one cut are waited for."""
 CUTS = 6
 TRIES = 40
