@@ -35,7 +35,7 @@ from singsym.varieties.real.witness import RealSystem
 MEMBERSHIP_SECONDS = 5.0
 SHORT_SECONDS = 1.0
 """So long each stratum is looked at before it is known whether more time is worth while."""
-LONG_SECONDS = 6.0
+LONG_SECONDS = 2.0
 """So long it is looked at where only the dimension of its class is in doubt."""
 
 

@@ -117,16 +117,20 @@ def realise(task: RealTask) -> Realised:
     exclusions = (*task.feasible.exclusions, *stratum.loci)
     system = replace(task.feasible, equations=stratum.equations, exclusions=exclusions)
     points: Points = ()
+    if task.known is not None:
+        piece = replace(piece, at_most=_bound(system, LONG_BOUND_SECONDS))
+        if piece.at_most is not None and piece.at_most <= task.known:
+            verdict = Verdict.undecided(f"only a dimension above {task.known} would matter")
+            return Realised(tuple(_images(replace(piece, verdict=verdict), points, task)))
     try:
         with Budget(task.seconds, task.memory_mb), certainties() as seen:
-            if task.known is not None:
-                _refuse_small(system, task.known)
             piece, points = _realised(piece, system, stratum)
         if piece.verdict.is_no:
             verdict = replace(piece.verdict, certainty=weakest(piece.verdict.certainty, *seen))
             piece = replace(piece, verdict=verdict)
     except Undecided as reason:
-        piece = replace(piece, verdict=Verdict.undecided(str(reason)), at_most=_bound(system, BOUND_SECONDS))
+        at_most = _bound(system, BOUND_SECONDS) if task.known is None else piece.at_most
+        piece = replace(piece, verdict=Verdict.undecided(str(reason)), at_most=at_most)
     return Realised(tuple(_images(piece, points, task)))
 
 
@@ -201,13 +205,6 @@ def _charted(system: RealSystem, patch: Patch) -> tuple[Cartesian, int]:
     """A set on a patch in few variables, and how many of the ring's it leaves free there."""
     chart = Cartesian.of(restricted(system, patch))
     return chart, len(patch.solved) + chart.left_out
-
-
-def _refuse_small(system: RealSystem, known: int) -> None:
-    """Raise `Undecided` where the dimension is not larger than the known one."""
-    bound = _bound(system, LONG_BOUND_SECONDS)
-    if bound is not None and bound <= known:
-        raise Undecided(f"only a dimension above {known} would matter")
 
 
 def _bound(system: RealSystem, seconds: float) -> int | None:

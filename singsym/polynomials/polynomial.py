@@ -46,18 +46,18 @@ class Polynomial:
     [(x + y, 1), (x - y, 1)]
     """
 
-    __slots__ = ("_hash", "_integer", "ring", "value")
+    __slots__ = ("_degrees", "_hash", "_integer", "ring", "value")
 
     ring: Ring
     value: fmpq_mpoly
+    # made when they are asked for
+    _degrees: tuple[int, ...]
     _hash: int
-    _integer: fmpz_mpoly | None
+    _integer: fmpz_mpoly
 
     def __init__(self, ring: Ring, value: fmpq_mpoly) -> None:
         object.__setattr__(self, "ring", ring)
         object.__setattr__(self, "value", value)
-        object.__setattr__(self, "_hash", 0)
-        object.__setattr__(self, "_integer", None)
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError(f"a Polynomial is immutable: {name} cannot be set")
@@ -131,10 +131,11 @@ class Polynomial:
         return NotImplemented
 
     def __hash__(self) -> int:
-        if not self._hash:
-            value = hash((self.ring.names, str(self.value)))
-            object.__setattr__(self, "_hash", value or 1)
-        return self._hash
+        try:
+            return self._hash
+        except AttributeError:
+            object.__setattr__(self, "_hash", hash((self.ring.names, str(self.value))))
+            return self._hash
 
     # -- inspection ------------------------------------------------------------------------------
 
@@ -166,7 +167,11 @@ class Polynomial:
     @property
     def degrees(self) -> tuple[int, ...]:
         """The degree in each variable of the ring (-1 throughout for zero)."""
-        return tuple(int(d) for d in self.value.degrees())
+        try:
+            return self._degrees
+        except AttributeError:
+            object.__setattr__(self, "_degrees", tuple(map(int, self.value.degrees())))
+            return self._degrees
 
     @property
     def variables(self) -> tuple[str, ...]:
@@ -219,12 +224,13 @@ class Polynomial:
 
     def integer(self) -> fmpz_mpoly:
         """The primitive integer multiple as FLINT's `fmpz_mpoly`, for engines."""
-        if self._integer is None:
+        try:
+            return self._integer
+        except AttributeError:
             value = self.primitive().value
             terms = zip(value.monoms(), (c.p for c in value.coeffs()), strict=True)
             object.__setattr__(self, "_integer", self.ring.integer_context.from_dict(dict(terms)))
-        assert self._integer is not None
-        return self._integer
+            return self._integer
 
     def reflect(self, names: Collection[str]) -> Polynomial:
         """The polynomial with the signs of these variables changed.

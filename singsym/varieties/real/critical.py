@@ -12,11 +12,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from functools import partial
 from math import comb, prod
 from random import Random
 
 from singsym.elimination.budget import Budget, Undecided, current
 from singsym.elimination.ideal import Ideal
+from singsym.elimination.verdict import noted_if_true
 from singsym.minors.determinant import minors
 from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
 from singsym.varieties.decomposition import Component, decompose
@@ -25,6 +27,7 @@ from singsym.varieties.real.points import RealPoint
 from singsym.varieties.real.zerodim import NotZeroDimensional, pinned, real_points
 
 _CENTRES = 3
+_CHOOSING_SECONDS = 1.0
 _MOST_MINORS = 2000
 _MOST_PRODUCTS = 10**12
 
@@ -82,7 +85,7 @@ def component_samples(
     # finitely many critical and singular points together: then the piece is reduced and nothing is left
     chosen = next(_choices(component, equations, codimension))
     try:
-        return _critical_points(component, chosen, nonzero, Random(5), budget)
+        return _critical_points(component, equations, chosen, nonzero, Random(5), budget)
     except NotZeroDimensional:
         found, singular = regular_samples(component, equations, budget, nonzero=nonzero)
     return (*found, *sample_points(ring, singular.generators, budget, nonzero=nonzero))
@@ -111,7 +114,8 @@ def regular_samples(
     random = Random(5)
     for _ in range(_CENTRES):
         try:
-            return _critical_points(component, chosen, (*nonzero, *border), random, budget), singular
+            outside = (*nonzero, *border)
+            return _critical_points(component, equations, chosen, outside, random, budget), singular
         except NotZeroDimensional:
             continue
     raise Undecided(f"the critical points on {component!r} are not finite for {_CENTRES} centres in {ring!r}")
@@ -202,6 +206,7 @@ def _modulo(polynomial: Polynomial, point: Sequence[int], prime: int) -> int:
 
 def _critical_points(
     component: Component,
+    equations: Sequence[Polynomial],
     local: Sequence[Polynomial],
     nonzero: Sequence[Polynomial],
     random: Random,
@@ -217,11 +222,12 @@ def _critical_points(
     if border.is_zero:
         return ()
     border = border.squarefree_part()
+    piece = _few_equations(component, equations)
     if border.is_constant:
-        system = _critical_system(component, local, ring.one, random)
+        system = (*piece, *_dependences(component, local, ring.one, random))
         return _pinned(real_points(Ideal(ring, system), budget))
     wide = ring.with_names((*ring.names, "1/border"))
-    system = _critical_system(component, local, border, random)
+    system = (*piece, *_dependences(component, local, border, random))
     outside = wide.gens[-1] * wide.convert(border) - 1
     points = real_points(Ideal(wide, (*map(wide.convert, system), outside)), budget)
     return _pinned([_dropped(p, ring) for p in points])
@@ -236,7 +242,29 @@ def _all_minors(matrix: PolynomialMatrix, size: int) -> list[Polynomial]:
     return [minor for _, _, minor in minors(matrix, size)]
 
 
-def _critical_system(
+def _few_equations(component: Component, equations: Sequence[Polynomial]) -> tuple[Polynomial, ...]:
+    """A few equations of the piece in place of a long Groebner basis, where some are quickly seen to do."""
+    generators = component.generators
+    known = tuple(f for f in equations if not f.is_zero)
+    shortest = sorted(generators, key=lambda f: (f.total_degree, len(f)))
+    codimension = len(component.ideal.ring.names) - component.dimension
+    for chosen in (known, tuple(shortest[: 2 * codimension])):
+        if not 0 < 2 * len(chosen) < len(generators):
+            continue
+        try:
+            with current().part(_CHOOSING_SECONDS):
+                if noted_if_true(partial(_generate, chosen, generators)):
+                    return chosen
+        except Undecided:
+            current().check("the equations of a piece")
+    return generators
+
+
+def _generate(chosen: Sequence[Polynomial], others: Sequence[Polynomial]) -> bool:
+    return all(map(Ideal(chosen[0].ring, chosen).contains, others))
+
+
+def _dependences(
     component: Component, local: Sequence[Polynomial], border: Polynomial, random: Random
 ) -> tuple[Polynomial, ...]:
     """Where the gradients of `local` and of 2 log H - k log q, times H q, are dependent."""
@@ -251,7 +279,7 @@ def _critical_system(
         direction = [2 * q * border.derivative(n) - k * border * q.derivative(n) for n in ring.names]
     rows = [*jacobian(local, ring.names), direction]
     found = _all_minors(PolynomialMatrix.of(ring, rows), len(local) + 1)
-    return (*component.generators, *map(component.ideal.reduce, found))
+    return tuple(map(component.ideal.reduce, found))
 
 
 def _pinned(points: Sequence[RealPoint], nonzero: Sequence[Polynomial] = ()) -> tuple[RealPoint, ...]:
