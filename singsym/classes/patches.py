@@ -14,6 +14,7 @@ from flint import fmpq
 
 from singsym.elimination.budget import current
 from singsym.elimination.substitution import substitute_solved
+from singsym.kinematics.nonzero import remainder
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.circles import unit_circles
 from singsym.varieties.splitting import factor_equations, irreducible_factors, linear_substitution
@@ -40,7 +41,7 @@ class Patch:
     def restrict(self, polynomial: Polynomial) -> Polynomial:
         """The polynomial with the solved variables put in."""
         present = {n: v for n, v in self.solved.items() if n in polynomial.variables}
-        return polynomial.substitute(present) if present else polynomial
+        return _reduced(polynomial.substitute(present)) if present else polynomial
 
 
 def unsplit(equations: Sequence[Polynomial], ring: Ring) -> Patch:
@@ -56,7 +57,7 @@ def unsplit(equations: Sequence[Polynomial], ring: Ring) -> Patch:
     solved: dict[str, Polynomial] = {}
     for name, value, _ in made:
         solved = {n: v.substitute({name: value}) for n, v in solved.items()} | {name: value}
-    return Patch(ring, solved, tuple(rest))
+    return Patch(ring, {n: _reduced(v) for n, v in solved.items()}, _all_reduced(rest))
 
 
 def patches(equations: Iterable[Polynomial], nonzero: Sequence[Polynomial], ring: Ring) -> tuple[Patch, ...]:
@@ -98,8 +99,8 @@ def patches(equations: Iterable[Polynomial], nonzero: Sequence[Polynomial], ring
             found[frozenset(patch.generators)] = patch
             continue
         put = {step.name: step.value}
-        known = {n: v.substitute(put) for n, v in solved.items()} | {step.name: step.value}
-        waiting.append((tuple(p.substitute(put) for p in single), known))
+        known = {n: _reduced(v.substitute(put)) for n, v in solved.items()} | {step.name: step.value}
+        waiting.append((_all_reduced(p.substitute(put) for p in single), known))
     left = [Patch(ring, solved, equations) for equations, solved in waiting]
     return tuple(sorted((*found.values(), *left), key=lambda p: str(p.generators)))
 
@@ -150,20 +151,65 @@ def _terms(p: Polynomial) -> dict[tuple[int, ...], fmpq]:
 
 
 def _parallel(equations: Sequence[Polynomial]) -> list[tuple[Polynomial, Polynomial]]:
-    """Two unit vectors, equal or opposite by an equation such as s1 c2 - c1 s2 = 0: both cases, linear.
+    """Two unit vectors that an equation makes parallel up to a turn or a mirror image: both cases, linear.
 
-    On the circles c1 = c2 u - s2 v, s1 = s2 u + c2 v with u = c1 c2 + s1 s2, v = s1 c2 - c1 s2,
-    and u^2 + v^2 = 1.
+    Such is a c1 c2 + b c1 s2 + c s1 c2 + d s1 s2 = 0 with (c, d) = (-b, a) or (b, -a) and constants: it says
+    that (c2, s2) is orthogonal to (a c1 + c s1, b c1 + d s1), whose length r is the root of a^2 + b^2.
     """
     circles = [(p.ring.gen(x), p.ring.gen(y)) for p in equations for x, y in unit_circles([p])]
     for p in equations:
-        if len(p) != 2 or p.total_degree != 2:
+        if len(p) > LONGEST or {sum(m) for m, _ in p.terms()} - {2, 3, 4}:
             continue
-        for x1, y1 in circles:
-            for x2, y2 in circles:
-                if x1.variables == x2.variables:
-                    continue
-                for u, v in ((x2, y2), (x2, -y2), (y2, x2), (y2, -x2)):
-                    if (x1 * v - y1 * u).primitive() == p.primitive():
-                        return [(x1 - u, y1 - v), (x1 + u, y1 + v)]
+        for one in circles:
+            for other in circles:
+                halves = _halves(p, one, other) if one != other else None
+                if halves:
+                    return halves
     return []
+
+
+def _halves(
+    p: Polynomial, one: tuple[Polynomial, Polynomial], other: tuple[Polynomial, Polynomial]
+) -> list[tuple[Polynomial, Polynomial]] | None:
+    ring = p.ring
+    x2, y2 = other
+    constants = {constant.name for constant in ring.constants}
+    if not {*x2.variables, *y2.variables} <= {*p.variables} <= {*constants, *_names(one), *_names(other)}:
+        return None
+    along, across = (p.coefficient(name, 1) for name in _names(other))
+    if p != x2 * along + y2 * across:
+        return None
+    (a, c), (b, d) = ([side.coefficient(name, 1) for name in _names(one)] for side in (along, across))
+    if along != a * one[0] + c * one[1] or across != b * one[0] + d * one[1]:
+        return None
+    if (c, d) not in ((-b, a), (b, -a)):
+        return None
+    length = _root(_reduced(a * a + b * b))
+    if length is None:
+        return None
+    return [(x2 * length - across, y2 * length + along), (x2 * length + across, y2 * length - along)]
+
+
+def _names(vector: tuple[Polynomial, Polynomial]) -> tuple[str, ...]:
+    return tuple(name for part in vector for name in part.variables)
+
+
+def _reduced(p: Polynomial) -> Polynomial:
+    """The remainder on division by the minimal polynomials of the ring's constants."""
+    for constant, relation in zip(p.ring.constants, p.ring.relations, strict=True):
+        p = remainder(p, relation, constant.name)
+    return p
+
+
+def _all_reduced(equations: Iterable[Polynomial]) -> tuple[Polynomial, ...]:
+    """The same for equations, but not for those minimal polynomials among them."""
+    return tuple(q for p in equations if (q := p if p in p.ring.relations else _reduced(p)))
+
+
+def _root(square: Polynomial) -> fmpq | None:
+    """The square root of a positive rational where it is rational."""
+    if not square.is_constant or square.constant <= 0:
+        return None
+    p, q = square.constant.p, square.constant.q
+    root = fmpq(p.isqrt(), q.isqrt())
+    return root if root * root == square.constant else None

@@ -50,7 +50,7 @@ _FLINT_BEFORE_MSOLVE = 0.3
 _LAST_PATIENCE, _DECOMPOSITION_PATIENCE = 3600.0, 120.0
 _CHECK_SECONDS = 20.0
 # a proof of what is known modulo primes may take so many times as long, between these limits
-_PROOF_FACTOR, _LEAST_PROOF, _MOST_PROOF = 4.0, 0.5, 3.0
+_PROOF_FACTOR, _LEAST_PROOF, _MOST_PROOF = 4.0, 1.0, 3.0
 # the same of a short basis, which is often found by way of short ones
 _SHORT_PROOF = 10.0
 # so many times as long where a proof is worth waiting for
