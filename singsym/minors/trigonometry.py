@@ -8,6 +8,7 @@ is lost, as tan(theta/2) would lose pi.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 
 from flint import fmpq
 
@@ -44,10 +45,13 @@ def trigonometric_factors(polynomial: Polynomial, pairs: Sequence[tuple[str, str
     if not used or polynomial.is_zero:
         return polynomial.factors()
     form = _form(polynomial, used)
+    parts = form.factors()
+    if len(parts) == 1 and parts[0][1] == 1:
+        return [(polynomial.primitive(), 1)]
     squares = {(form.ring.gen(c) ** 2 + form.ring.gen(s) ** 2).primitive() for c, s in used}
     even: Factors = []
     odd: dict[tuple[int, ...], list[Polynomial]] = {}
-    for factor, multiplicity in form.factors():
+    for factor, multiplicity in parts:
         if factor in squares:
             continue
         parity = tuple(_degree(factor, pair) % 2 for pair in used)
@@ -114,15 +118,19 @@ def _trigonometric(form: Polynomial, pairs: Sequence[tuple[str, str]]) -> Polyno
     ring = form.ring
     total = ring.zero
     places = [(ring.index(c), ring.index(s)) for c, s in pairs]
+
+    @cache
+    def moved(place: tuple[int, int], a: int, b: int) -> Polynomial:
+        c, s = (ring.gens[k] for k in place)
+        even: Polynomial = (c + 1) ** (a // 2) * (1 - c) ** (b // 2) / 2 ** ((a + b) // 2)
+        return even * s if a % 2 else even
+
     for exponents, coefficient in form.terms():
         rest = list(exponents)
         term = ring.one
-        for i, j in places:
-            a, b = int(exponents[i]), int(exponents[j])
-            c, s = ring.gens[i], ring.gens[j]
-            term = term * (c + 1) ** (a // 2) * (1 - c) ** (b // 2) / 2 ** ((a + b) // 2)
-            if a % 2:
-                term = term * s
-            rest[i] = rest[j] = 0
+        for place in places:
+            term = term * moved(place, *(int(exponents[k]) for k in place))
+            for k in place:
+                rest[k] = 0
         total = total + term * ring.from_dict({tuple(rest): coefficient})
     return total
