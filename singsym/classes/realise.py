@@ -24,6 +24,7 @@ from singsym.kinematics.placement import Coordinates, JointValue
 from singsym.varieties.real.box import BoxPoint
 from singsym.varieties.real.cartesian import Cartesian
 from singsym.varieties.real.curve import real_curve
+from singsym.varieties.real.curve_equations import NotACurve
 from singsym.varieties.real.cuts import Cut, dimension_by_cuts
 from singsym.varieties.real.dimension import component_dimension, independent, real_dimension
 from singsym.varieties.real.intervals import at_precision, evaluate
@@ -250,9 +251,15 @@ def _positive(piece: Piece, found: tuple[int, Witness | None]) -> tuple[Piece, P
 
 
 def count(task: CurveTask) -> Counted:
-    """The connected components of a real curve, closed up: the task that workers run."""
-    with Budget(task.seconds, task.memory_mb):
-        curve = real_curve(task.equations)
+    """The connected components of a real curve, closed up: the task that workers run.
+
+    They are not counted where the complex zeros are no curve, as of x^2 + y^2 = 0 in space.
+    """
+    try:
+        with Budget(task.seconds, task.memory_mb):
+            curve = real_curve(task.equations)
+    except NotACurve as reason:
+        return Counted(None, str(reason))
     if curve.verdict.is_undecided:
         return Counted(None, curve.verdict.reason)
     return Counted(curve.connected_components)

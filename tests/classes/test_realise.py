@@ -7,7 +7,7 @@ from math import isclose, pi
 
 from singsym.classes.classify import classify
 from singsym.classes.explore import Found
-from singsym.classes.realise import Names, RealTask, realise
+from singsym.classes.realise import CurveTask, Names, RealTask, count, realise
 from singsym.classes.strata import Stratum
 from singsym.classes.types import Defects
 from singsym.classes.types import SingularityType as T
@@ -38,3 +38,11 @@ def test_a_stratum_below_a_known_dimension_is_left() -> None:
     (looked_at,) = realise(replace(task, known=0)).pieces
     assert (seen.dimension, looked_at.dimension) == (1, 1)
     assert (left.dimension, left.at_most, left.verdict.is_undecided) == (None, 1, True)
+
+
+def test_a_real_curve_of_complex_surfaces_is_not_counted() -> None:
+    """The real zeros of x^2 + y^2 in space are a line, the complex ones two planes."""
+    x, y, _ = Ring(("x", "y", "z")).gens
+    counted = count(CurveTask((x**2 + y**2,)))
+    assert counted.components is None
+    assert "dimension 2" in counted.reason

@@ -33,7 +33,7 @@ def candidates(ring: Ring, generators: tuple[Polynomial, ...], budget: Budget) -
 
     With n-1 equations every component has dimension at least 1, and finitely many critical points prove
     dimension 1.  With more, or where that fails, the system is decomposed first.
-    Raises `ValueError` naming the dimension where it is not 1.
+    Raises `NotACurve` naming the dimension where it is not 1.
     """
     size = len(ring.names)
     equations = tuple(
@@ -68,9 +68,13 @@ def candidates(ring: Ring, generators: tuple[Polynomial, ...], budget: Budget) -
     yield CurveEquations(union.groebner_basis(budget), points, certainty)
 
 
+class NotACurve(ValueError):
+    """Raised where a curve is expected and the complex dimension is another."""
+
+
 def _refuse(dimension: int, constants: int) -> None:
     what = f"dimension {dimension}" + (" with its constants as variables" if constants else "")
-    raise ValueError(
+    raise NotACurve(
         f"a curve (dimension 1) is expected, the system has complex {what}: add or remove equations"
     )
 
