@@ -14,7 +14,7 @@ from functools import cached_property
 from math import inf
 
 from singsym.classes.explore import Branch, Exploration, Found, Loci, SingularLoci, search
-from singsym.classes.realise import Counted, CurveTask, Names, RealTask, count, realise
+from singsym.classes.realise import Counted, CurveTask, Names, Realised, RealTask, count, realise
 from singsym.classes.result import Classification, ClassResult, Locus, Piece, SpacePiece
 from singsym.classes.steps import excluded_in, found_in
 from singsym.classes.strata import RankProblem, Stratum
@@ -33,10 +33,8 @@ from singsym.polynomials import Polynomial
 from singsym.varieties.real.witness import RealSystem
 
 MEMBERSHIP_SECONDS = 5.0
-SHORT_SECONDS = 1.0
+FIRST_SECONDS, SECOND_SECONDS = 0.5, 2.0
 """So long each stratum is looked at before it is known whether more time is worth while."""
-LONG_SECONDS = 2.0
-"""So long it is looked at where only the dimension of its class is in doubt."""
 
 
 @dataclass(frozen=True)
@@ -49,6 +47,10 @@ class Limits:
     seconds: float | None = 60.0
     memory_mb: int | None = None
     total: float | None = 600.0
+
+    def part(self, seconds: float) -> float:
+        """So many seconds, or those of a task where they are fewer."""
+        return seconds if self.seconds is None else min(seconds, self.seconds)
 
 
 def classify(
@@ -158,30 +160,42 @@ class _Work:
     def _pieces(self, found: Sequence[Found]) -> list[Piece]:
         """The real pieces of all strata; only what may change the answer for its class gets much time.
 
-        It gets least where the class is known to occur, and to be no curve nor points to be counted.
+        After a first look at all, those in doubt get a second one; a last one only those whose class is not
+        known to occur, or is known as a curve or points, which are to be counted.
         """
         limits = self.limits
-        whole = inf if limits.seconds is None else limits.seconds
-        quick = min(SHORT_SECONDS, whole)
-        tasks = [RealTask(f, self.feasible, self.names, quick, limits.memory_mb) for f in found]
-        realised = self.runner.map(realise, tasks, "real points")
+        tasks = [RealTask(f, self.feasible, self.names, None, limits.memory_mb) for f in found]
+        first = [replace(task, seconds=limits.part(FIRST_SECONDS)) for task in tasks]
+        realised = self.runner.map(realise, first, "real points")
+        self._look_again(tasks, realised, limits.part(SECOND_SECONDS), "real points, second look")
+        self._look_again(tasks, realised, limits.seconds, "real points, at length", most=1)
+        return [piece for part in realised for piece in part.pieces]
+
+    def _look_again(
+        self,
+        tasks: Sequence[RealTask],
+        realised: list[Realised],
+        seconds: float | None,
+        stage: str,
+        most: float = inf,
+    ) -> None:
+        """Realise strata in doubt once more, those of classes of unknown or small dimension first.
+
+        most: the largest known dimension of the classes of strata that are looked at.
+        """
         known = _dimensions(piece for part in realised for piece in part.pieces)
         least = [min(known.get(p.defects.types, 0) for p in part.pieces) for part in realised]
         doubtful = [
             i
             for i, part in enumerate(realised)
-            if any(_in_doubt(p, known.get(p.defects.types)) for p in part.pieces)
+            if least[i] <= most and any(_in_doubt(p, known.get(p.defects.types)) for p in part.pieces)
         ]
         doubtful.sort(key=lambda i: least[i])
         again = [
-            replace(tasks[i], seconds=min(LONG_SECONDS, whole), known=least[i])
-            if least[i] > 1
-            else replace(tasks[i], seconds=limits.seconds)
-            for i in doubtful
+            replace(tasks[i], seconds=seconds, known=least[i] if least[i] > 1 else None) for i in doubtful
         ]
-        for i, part in zip(doubtful, self.runner.map(realise, again, "real points, at length"), strict=True):
+        for i, part in zip(doubtful, self.runner.map(realise, again, stage), strict=True):
             realised[i] = part
-        return [piece for part in realised for piece in part.pieces]
 
     def _singular_loci(self) -> SingularLoci | None:
         """The alternatives of (4), (5), (iii) and (vi), where they are known and not everything."""
@@ -286,7 +300,7 @@ class _Work:
         doubts += explored.doubts(candidate.types)
         if present:
             certainty = present[0].verdict.certainty
-            verdict = Verdict.yes(certainty, reason="; ".join(dict.fromkeys(doubts)))
+            verdict = Verdict.yes(certainty, reason=_more(doubts))
             steps: tuple[str, ...] = (found_in(candidate.types),)
         elif doubts:
             verdict = Verdict.undecided("; ".join(dict.fromkeys(doubts)))
@@ -390,6 +404,11 @@ def _in_doubt(piece: Piece, known: int | None) -> bool:
     if not piece.verdict.is_undecided and piece.dimension is not None:
         return False
     return known is None or known < 2 or piece.at_most is None or piece.at_most > known
+
+
+def _more(doubts: Sequence[str]) -> str:
+    """What is not known of a class that occurs."""
+    return f"there may be more of it: {'; '.join(dict.fromkeys(doubts))}" if doubts else ""
 
 
 def _components(pieces: Sequence[Piece], loci: Sequence[Locus]) -> int | None:

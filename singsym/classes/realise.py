@@ -40,7 +40,7 @@ SEARCHES = 300
 DIMENSION_SECONDS = 20.0
 """So long the dimension of a set that has a certified point is looked for."""
 BOUND_SECONDS, LONG_BOUND_SECONDS = 1.0, 5.0
-"""So long a bound is looked for where the dimension was not found, and where only a large one matters."""
+"""So long a bound is looked for where only a large dimension matters, and once more where none is found."""
 
 _BITS = 80
 
@@ -119,7 +119,7 @@ def realise(task: RealTask) -> Realised:
     system = replace(task.feasible, equations=stratum.equations, exclusions=exclusions)
     points: Points = ()
     if task.known is not None:
-        piece = replace(piece, at_most=_bound(system, LONG_BOUND_SECONDS))
+        piece = replace(piece, at_most=_bound(system, BOUND_SECONDS))
         if piece.at_most is not None and piece.at_most <= task.known:
             verdict = Verdict.undecided(f"only a dimension above {task.known} would matter")
             return Realised(tuple(_images(replace(piece, verdict=verdict), points, task)))
@@ -130,7 +130,7 @@ def realise(task: RealTask) -> Realised:
             verdict = replace(piece.verdict, certainty=weakest(piece.verdict.certainty, *seen))
             piece = replace(piece, verdict=verdict)
     except Undecided as reason:
-        at_most = _bound(system, BOUND_SECONDS) if task.known is None else piece.at_most
+        at_most = None if task.known is None else _bound(system, LONG_BOUND_SECONDS)
         piece = replace(piece, verdict=Verdict.undecided(str(reason)), at_most=at_most)
     return Realised(tuple(_images(piece, points, task)))
 

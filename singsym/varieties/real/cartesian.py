@@ -81,25 +81,32 @@ class Cartesian:
         return parts
 
     @cached_property
-    def _needed(self) -> Group:
-        """Exclusions that leave out all numerical points of the closed set that are left out at all."""
-        nonzero = _nonconstant(self.system.nonzero)
+    def _needed(self) -> tuple[Group, ...]:
+        """Exclusions that leave out all numerical points of the closed set that are left out at all.
+
+        Such of single polynomials come first.
+        """
+        single = [(p,) for p in _nonconstant(self.system.nonzero)]
+        several = [group for group in self.system.exclusions if len(group) > 1]
         closed = replace(self.system, exclusions=(), positive=(), nonnegative=())
         points = numerical_points(closed, CLOSED_POINTS)
-        chosen: list[Polynomial] = []
-        while points:
-            reached = {p: sum(not is_off(x, (p,)) for x in points) for p in nonzero}
-            best = max(nonzero, key=lambda p: reached[p], default=None)
-            if best is None or not reached[best]:
-                break
-            chosen.append(best)
-            points = tuple(x for x in points if is_off(x, (best,)))
+        chosen: list[Group] = []
+        for groups in (single, several):
+            while points:
+                reached = [sum(not is_off(x, group) for x in points) for group in groups]
+                most = max(reached, default=0)
+                if not most:
+                    break
+                best = groups[reached.index(most)]
+                chosen.append(best)
+                points = tuple(x for x in points if is_off(x, best))
         return tuple(chosen)
 
     @cached_property
     def _ideals(self) -> tuple[Ideal, ...]:
-        """The zeros off the exclusions that are needed, and off all single ones."""
-        return tuple(map(self._off, dict.fromkeys((self._needed, _nonconstant(self.system.nonzero)))))
+        """The zeros off the single exclusions that are needed, and off all of them."""
+        needed = tuple(group[0] for group in self._needed if len(group) == 1)
+        return tuple(map(self._off, dict.fromkeys((needed, _nonconstant(self.system.nonzero)))))
 
     def _off(self, nonzero: Group) -> Ideal:
         """The equations with a variable for the inverse of each of some polynomials (Rabinowitsch 1929)."""
@@ -167,7 +174,7 @@ class Cartesian:
         RealSystem(ring=Q[z], equations=(z^2 - 2,), exclusions=(), positive=(), nonnegative=(-z + 1,))
         """
         system = self.system
-        exclusions = tuple((p,) for p in self._needed if p not in system.positive)
+        exclusions = tuple(group for group in self._needed if group[0] not in system.positive)
         groups = (system.equations, system.positive, system.nonnegative, *exclusions)
         uses = Counter(name for group in groups for p in group for name in p.variables)
         equations, nonnegative = [], list(system.nonnegative)
@@ -177,7 +184,7 @@ class Cartesian:
                 equations.append(p)
             elif not rest.is_constant or rest.constant < 0:
                 nonnegative.append(rest)
-        kept = (*equations, *nonnegative, *system.positive, *(g for (g,) in exclusions))
+        kept = (*equations, *nonnegative, *system.positive, *(g for group in exclusions for g in group))
         ring = used_ring(system.ring, (*kept, *system.ring.relations))
         convert = ring.convert
         return RealSystem(

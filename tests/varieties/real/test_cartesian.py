@@ -49,3 +49,14 @@ def test_the_trimmed_system_has_a_point_if_the_given_one_has(height: int, empty:
     chart = Cartesian.of(RealSystem(R, (*LEG, 2 * w - height), exclusions=((q,),)))
     assert chart.is_empty() == empty
     assert is_empty_over_reals(chart.trimmed).is_yes == empty
+
+
+def test_an_exclusion_of_several_polynomials_is_kept_where_only_it_leaves_out_points() -> None:
+    """x = 0 and y = z are a line, all of which is excluded, though not by one polynomial."""
+    x, y, z = Ring(("x", "y", "z")).gens
+    line = (x, y - z)
+    group = tuple(f * (z**4 + k * z**2 + 1) for f in line for k in (1, 2, 3))
+    system = RealSystem(x.ring, (x + x * z**2, y - z + x * y), exclusions=((z**2 + 5,), group))
+    trimmed = Cartesian.of(system).trimmed
+    assert trimmed.exclusions == (group,)
+    assert is_empty_over_reals(trimmed, tries=0).is_yes
