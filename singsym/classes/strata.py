@@ -158,9 +158,13 @@ MOST_PRODUCTS = 10**10
 
 
 def expanded(square: PolynomialMatrix) -> Polynomial:
-    """The determinant; raises `Undecided` where it would be too large."""
+    """The determinant; raises `NotEvident` with a short entry where it would be too large.
+
+    Where that entry is known not to vanish, it is a pivot, and the matrix gets smaller.
+    """
     if prod(sum(map(len, row)) for row in square.rows) > MOST_PRODUCTS:
-        raise Undecided(f"a minor of size {square.width} is too large to be expanded")
+        entries = (e for row in square.rows for e in row if not e.is_constant)
+        raise NotEvident(min(entries, key=lambda e: (*_weight(e), str(e))))
     return determinant(square)
 
 

@@ -157,12 +157,15 @@ def _out_of_bounds(system: RealSystem, equations: Sequence[Polynomial]) -> bool:
 
 
 def _combinations(equations: Sequence[Polynomial]) -> Iterator[Polynomial]:
+    """The equations, their sums and differences, and what is left when the constants of two cancel."""
     yield from equations
     if len(equations) <= 12:
         for i, f in enumerate(equations):
             for g in equations[:i]:
                 yield f + g
                 yield f - g
+                if f.constant and g.constant and abs(f.constant) != abs(g.constant):
+                    yield f * g.constant - g * f.constant
 
 
 def _contradiction(component: Component, system: RealSystem) -> bool:

@@ -124,3 +124,12 @@ def test_sums_of_squares():
     assert sum_of_squares(x * y) is None
     assert sum_of_squares(x**2 - 2 * x) is None
     assert sum_of_squares(MOTZKIN) is None
+
+
+def test_a_sum_of_squares_modulo_a_circle() -> None:
+    """d^2 + 6 s d + 9 = (d + 3 s)^2 + 9 c^2 on the circle: c = 0 is all that is real."""
+    c, s, d = Ring(("c", "s", "d")).gens
+    hinge = (c**2 + s**2 - 1, d**2 + 6 * s * d + 9)
+    budget = Budget(20)
+    assert is_empty_over_reals(RealSystem(c.ring, hinge, exclusions=((c,),)), budget).is_yes
+    assert is_empty_over_reals(RealSystem(c.ring, hinge, exclusions=((s,),)), budget).is_no
