@@ -158,6 +158,12 @@ class Classification:
         """Whether any class is undecided."""
         return any(c.verdict.is_undecided for c in self.classes)
 
+    @property
+    def parameters_note(self) -> str:
+        """Which parameters have no value and count as dimensions; empty where all have."""
+        names = self.equation.space.parameters
+        return f"dimensions count {', '.join(names)}, which may vary" if names else ""
+
     def of(self, types: SingularityType) -> ClassResult:
         """The result for the class of exactly these types; raises `KeyError` for others."""
         for result in self.classes:
@@ -179,6 +185,7 @@ class Classification:
             "mechanism": self.mechanism.name if self.mechanism else "",
             "N": self.equation.N,
             "n": self.equation.n,
+            "parameters": list(self.equation.space.parameters),
             "configuration_space": [
                 {
                     "dimension": piece.dimension,

@@ -29,6 +29,7 @@ from singsym.minors.rank import alternatives, simplest_blocks
 from singsym.polynomials import Polynomial, PolynomialMatrix
 from singsym.varieties.decomposition import Component
 from singsym.varieties.real.cartesian import Cartesian
+from singsym.varieties.real.intervals import pivots
 from singsym.varieties.real.sampling import Points, is_large
 from singsym.varieties.real.witness import RealSystem
 
@@ -91,14 +92,14 @@ class Stratum:
 
 
 class NotEvident(Undecided):
-    """A polynomial seems to vanish on a set, and that is not proven."""
+    """What a polynomial does on a set has to be known before more can be said of it."""
 
-    def __init__(self, polynomial: Polynomial) -> None:
-        super().__init__("a minor seems to vanish on a part of the configuration space")
+    def __init__(self, polynomial: Polynomial, reason: str) -> None:
+        super().__init__(reason)
         self.polynomial = polynomial
 
-    def __reduce__(self) -> tuple[type[NotEvident], tuple[Polynomial]]:
-        return NotEvident, (self.polynomial,)
+    def __reduce__(self) -> tuple[type[NotEvident], tuple[Polynomial, str]]:
+        return NotEvident, (self.polynomial, str(self))
 
 
 @dataclass(frozen=True)
@@ -149,7 +150,7 @@ class Ground:
         if self.component is None:
             if self._chart is not None and self._chart[0].vanishes(restricted, self._chart[1]):
                 return True
-            raise NotEvident(restricted)
+            raise NotEvident(restricted, "a minor seems to vanish on a part of the configuration space")
         return not self.component.prime and self.component.ideal.radical_contains(polynomial)
 
 
@@ -164,7 +165,8 @@ def expanded(square: PolynomialMatrix) -> Polynomial:
     """
     if prod(sum(map(len, row)) for row in square.rows) > MOST_PRODUCTS:
         entries = (e for row in square.rows for e in row if not e.is_constant)
-        raise NotEvident(min(entries, key=lambda e: (*_weight(e), str(e))))
+        shortest = min(entries, key=lambda e: (*_weight(e), str(e)))
+        raise NotEvident(shortest, f"a minor of size {square.width} is too large to be expanded")
     return determinant(square)
 
 
@@ -421,32 +423,3 @@ def union_of_loci(
         products = products[: len(products) * 2 // 3]
         found = alternatives(tuple(products), certifier)
     return found, len(products) == count
-
-
-def pivots(matrix: list[list[float]]) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """Rows and columns of a well-conditioned minor of a numerical matrix, by complete pivoting.
-
-    >>> pivots([[0.0, 2.0], [0.0, 1.0]])
-    ((0,), (1,))
-    """
-    work = [row[:] for row in matrix]
-    scale = max((abs(e) for row in work for e in row), default=0.0)
-    rows: list[int] = []
-    columns: list[int] = []
-    while True:
-        rest = [
-            (abs(work[i][j]), i, j)
-            for i in range(len(work))
-            if i not in rows
-            for j in range(len(work[i]))
-            if j not in columns
-        ]
-        size, i, j = max(rest, default=(0.0, -1, -1))
-        if size <= 1e-7 * scale or scale == 0.0:
-            return tuple(sorted(rows)), tuple(sorted(columns))
-        rows.append(i)
-        columns.append(j)
-        for k in range(len(work)):
-            if k not in rows:
-                factor = work[k][j] / work[i][j]
-                work[k] = [a - factor * b for a, b in zip(work[k], work[i], strict=True)]

@@ -266,6 +266,8 @@ def classification_latex(result: Classification) -> str:
     if result.loci:
         parts += [r"\section*{Singularity set}", _loci(result.loci)]
     parts += [r"\section*{Classes}", _class_table(result)]
+    if result.parameters_note:
+        parts.append(f"Here {escaped(result.parameters_note)}.")
     parts += [_class(c, result) for c in result.classes if c.verdict.is_yes]
     doubts = [c for c in result.classes if c.verdict.is_undecided]
     if doubts:

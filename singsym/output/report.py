@@ -71,8 +71,10 @@ def _head(classification: Classification) -> str:
 
     mechanism, equation = classification.mechanism, classification.equation
     facts = [f"N = {equation.N} joints of one degree of freedom, mobility n = {equation.n}"]
+    if classification.parameters_note:
+        facts.append(classification.parameters_note)
     if mechanism is None:
-        return f"<p>{facts[0]}.</p>"
+        return f"<p>{'; '.join(facts)}.</p>"
     outputs = [
         f"rate of {o.column}"
         if isinstance(o, JointRate)

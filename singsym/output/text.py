@@ -200,7 +200,8 @@ def classification_page(result: Classification) -> Page:
     """What was found, in the layout of Table 2, with loci, class by class and configurations."""
     name = result.mechanism.name if result.mechanism is not None else "given equations"
     equation = result.equation
-    head = f"{name}: N = {equation.N}, n = {equation.n}"
+    sizes = f"{name}: N = {equation.N}, n = {equation.n}"
+    head = f"{sizes}; {result.parameters_note}" if result.parameters_note else sizes
     space = tuple(_space_row(piece) for piece in result.configuration_space)
     loci = tuple(_locus_row(locus) for locus in result.loci)
     rows = tuple(_class_row(c, result) for c in result.classes)

@@ -14,13 +14,13 @@ from singsym.classes.strata import (
     NotEvident,
     RankProblem,
     block_rank,
-    pivots,
     ranked,
     relevant,
 )
 from singsym.classes.types import Defects, SingularityType, feasible_defects
 from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
 from singsym.varieties.decomposition import decompose
+from singsym.varieties.real.intervals import pivots
 from singsym.varieties.real.sampling import numerical_points
 from singsym.varieties.real.witness import RealSystem
 

@@ -228,3 +228,14 @@ def test_tables_on_a_narrow_terminal_are_whole(monkeypatch, capsys):
     assert "…" not in shown
     assert max(map(len, shown.splitlines())) <= 80
     assert {w for w in plain.split() if w.isalpha()} == {w for w in shown.split() if w.isalpha()}
+
+
+def test_dimensions_that_count_a_parameter_are_said_to(capsys: pytest.CaptureFixture[str]) -> None:
+    """With the rod's length left open the two dead centres of a slider-crank are curves."""
+    found = data(capsys, "classify", "slider-crank", "--set", "l=", "--no-cache")
+    assert found["parameters"] == ["l"]
+    assert found["classes"][0]["dimension"] == 1
+    assert main(["classify", "slider-crank", "--set", "l=", "--no-cache"]) == 0
+    assert "dimensions count l" in capsys.readouterr().out
+    assert main(["classify", "slider-crank", "--set", "l=", "--no-cache", "--format", "latex"]) == 0
+    assert "dimensions count l" in capsys.readouterr().out

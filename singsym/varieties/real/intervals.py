@@ -89,7 +89,7 @@ def rank_at_least(matrix: Sequence[Sequence[arb]], rank: int) -> bool:
         return True
     if not matrix or min(len(matrix), len(matrix[0])) < rank:
         return False
-    rows, columns = pivots([[float(e.mid()) for e in row] for row in matrix], rank)
+    rows, columns = pivots([[float(e.mid()) for e in row] for row in matrix], rank, 0.0)
     if len(rows) < rank:
         return False
     return regular([[matrix[i][j] for j in columns] for i in rows])
@@ -112,17 +112,26 @@ def regular(matrix: Sequence[Sequence[arb]]) -> bool:
     return True
 
 
-def pivots(matrix: Sequence[Sequence[float]], rank: int) -> tuple[list[int], list[int]]:
-    """Rows and columns of a well-conditioned minor, by complete pivoting; shorter lists if there is none."""
+def pivots(
+    matrix: Sequence[Sequence[float]], most: int | None = None, tolerance: float = 1e-7
+) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Rows and columns of a well-conditioned minor, by complete pivoting.
+
+    most: the largest size asked for; tolerance: entries not above it, relative to the largest, count as zero.
+
+    >>> pivots([[0.0, 2.0], [0.0, 1.0]])
+    ((0,), (1,))
+    """
     work = [list(row) for row in matrix]
+    scale = max((abs(e) for row in work for e in row), default=0.0)
     rows: list[int] = []
     columns: list[int] = []
     free_rows, free_columns = list(range(len(work))), list(range(len(work[0]) if work else 0))
-    for _ in range(rank):
+    while most is None or len(rows) < most:
         size, i, j = max(
             ((abs(work[i][j]), i, j) for i in free_rows for j in free_columns), default=(0.0, -1, -1)
         )
-        if not size > 0:
+        if not size > tolerance * scale:
             break
         rows.append(i)
         columns.append(j)
@@ -132,7 +141,7 @@ def pivots(matrix: Sequence[Sequence[float]], rank: int) -> tuple[list[int], lis
             factor = work[k][j] / work[i][j]
             if factor:
                 work[k] = [a - factor * b for a, b in zip(work[k], work[i], strict=True)]
-    return rows, columns
+    return tuple(sorted(rows)), tuple(sorted(columns))
 
 
 def some_minor_nonzero(matrix: Sequence[Sequence[arb]], size: int) -> bool:
