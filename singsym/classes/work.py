@@ -20,7 +20,7 @@ from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExe
 from fractions import Fraction
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, TypeVar, cast
 
 from singsym.elimination import engines, progress
 from singsym.elimination.budget import Budget
@@ -134,15 +134,14 @@ class Runner:
         >>> Runner().map(abs, [-1, 2], "abs")
         [1, 2]
         """
-        results = self._run(function, tasks, stage, Budget(), _none)
-        return [results[(i,)] for i in range(len(tasks))]
+        # without a limit every task is finished
+        return cast("list[R]", self.map_within(function, tasks, stage, Budget()))
 
     def map_within(
         self, function: Callable[[T], R], tasks: Sequence[T], stage: str, budget: Budget
     ) -> list[R | None]:
         """The same, with None for tasks that were not finished when the budget was used up."""
-        results = self._run(function, tasks, stage, budget, _none)
-        return [results.get((i,)) for i in range(len(tasks))]
+        return [result for _, result in self.grow(function, tasks, _none, stage, budget)]
 
     def grow(
         self,
@@ -160,28 +159,13 @@ class Runner:
         >>> Runner().grow(abs, [-2], lambda n: [n - 1] if n else [], "down", Budget())
         [(-2, 2), (1, 1), (0, 0)]
         """
-        results = self._run(function, tasks, stage, budget, following)
-        grown: dict[Place, T] = {(i,): task for i, task in enumerate(tasks)}
-        for place in sorted(results, key=_generation):
-            grown |= {(*place, i): task for i, task in enumerate(following(results[place]))}
-        return [(grown[place], results.get(place)) for place in sorted(grown, key=_generation)]
-
-    def _run(
-        self,
-        function: Callable[[T], R],
-        tasks: Sequence[T],
-        stage: str,
-        budget: Budget,
-        following: Callable[[R], Sequence[T]],
-    ) -> dict[Place, R]:
-        """The results by the places of the tasks in the tree of what follows from what."""
+        grown: dict[Place, T] = {}
         results: dict[Place, R] = {}
         work = _Queue(function, self.executor)
         new: list[tuple[Place, T]] = [((i,), task) for i, task in enumerate(tasks)]
-        total = 0
         try:
             while True:
-                total += len(new)
+                grown.update(new)
                 arrived: list[tuple[Place, R]] = []
                 for place, task in new:
                     path = None if self.cache is None else self.cache.path(function, task)
@@ -190,7 +174,7 @@ class Runner:
                         work.put(place, path, task)
                     else:
                         arrived.append((place, known))
-                progress.report(stage, done=len(results) + len(arrived), total=total)
+                progress.report(stage, done=len(results) + len(arrived), total=len(grown))
                 if not arrived:
                     if not work or (results and budget.remaining() == 0.0):
                         break
@@ -204,7 +188,8 @@ class Runner:
             raise
         # not on an interruption: a pool whose processes die while futures are cancelled never ends
         work.call_off()
-        return results
+        order = sorted(grown, key=lambda place: (len(place), place))
+        return [(grown[place], results.get(place)) for place in order]
 
     def _known(self, path: Path | None) -> Any | None:
         return None if self.cache is None or path is None else self.cache.get(path)
@@ -216,10 +201,6 @@ class Runner:
 
 Place = tuple[int, ...]
 """Which task: its number among the first ones, or among those that follow from the task at `place[:-1]`."""
-
-
-def _generation(place: Place) -> tuple[int, Place]:
-    return len(place), place
 
 
 def _none(result: object) -> tuple[()]:
