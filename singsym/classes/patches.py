@@ -8,14 +8,16 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import lru_cache
 
 from flint import fmpq
 
 from singsym.elimination.budget import current
 from singsym.elimination.substitution import substitute_solved
-from singsym.kinematics.nonzero import remainder
+from singsym.kinematics.nonzero import divided
 from singsym.polynomials import Polynomial, Ring
+from singsym.polynomials.ranges import fraction, root_above
 from singsym.varieties.circles import unit_circles
 from singsym.varieties.splitting import factor_equations, irreducible_factors, linear_substitution
 
@@ -158,6 +160,7 @@ def _parallel(equations: Sequence[Polynomial]) -> list[tuple[Polynomial, Polynom
     """
     circles = [(p.ring.gen(x), p.ring.gen(y)) for p in equations for x, y in unit_circles([p])]
     for p in equations:
+        # two coordinates, and at most a square of constants
         if len(p) > LONGEST or {sum(m) for m, _ in p.terms()} - {2, 3, 4}:
             continue
         for one in circles:
@@ -196,9 +199,8 @@ def _names(vector: tuple[Polynomial, Polynomial]) -> tuple[str, ...]:
 
 def _reduced(p: Polynomial) -> Polynomial:
     """The remainder on division by the minimal polynomials of the ring's constants."""
-    for constant, relation in zip(p.ring.constants, p.ring.relations, strict=True):
-        p = remainder(p, relation, constant.name)
-    return p
+    names = (constant.name for constant in p.ring.constants)
+    return divided(p, tuple(zip(p.ring.relations, names, strict=True)))
 
 
 def _all_reduced(equations: Iterable[Polynomial]) -> tuple[Polynomial, ...]:
@@ -206,10 +208,9 @@ def _all_reduced(equations: Iterable[Polynomial]) -> tuple[Polynomial, ...]:
     return tuple(q for p in equations if (q := p if p in p.ring.relations else _reduced(p)))
 
 
-def _root(square: Polynomial) -> fmpq | None:
+def _root(square: Polynomial) -> Fraction | None:
     """The square root of a positive rational where it is rational."""
     if not square.is_constant or square.constant <= 0:
         return None
-    p, q = square.constant.p, square.constant.q
-    root = fmpq(p.isqrt(), q.isqrt())
-    return root if root * root == square.constant else None
+    root = root_above(fraction(square.constant))
+    return root if root * root == fraction(square.constant) else None

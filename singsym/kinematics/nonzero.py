@@ -45,7 +45,7 @@ def remainder(polynomial: Polynomial, divisor: Polynomial, name: str) -> Polynom
 
 
 @lru_cache(maxsize=2**15)
-def _divided(polynomial: Polynomial, divisors: Divisors) -> Polynomial:
+def divided(polynomial: Polynomial, divisors: Divisors) -> Polynomial:
     """The remainder on division by one after another; many spaces have the same circles."""
     for divisor, name in divisors:
         polynomial = remainder(polynomial, divisor, name)
@@ -106,11 +106,11 @@ class Certifier:
         modulo the sums of squares, in which equal polynomials on circles and spheres are identical."""
         if len(polynomial) > LONGEST:
             return ()
-        return tuple(dict.fromkeys(_divided(polynomial, divisors) for divisors in self._divisors))
+        return tuple(dict.fromkeys(divided(polynomial, divisors) for divisors in self._divisors))
 
     def normal_form(self, polynomial: Polynomial) -> Polynomial:
         """The normal form modulo the equations that are sums of squares of variables."""
-        return _divided(polynomial, self._divisors[0])
+        return divided(polynomial, self._divisors[0])
 
     @cached_property
     def _divisors(self) -> tuple[Divisors, Divisors]:

@@ -9,8 +9,6 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from math import inf, prod
 
-from flint import fmpq
-
 from singsym.polynomials import Polynomial, Ring
 from singsym.polynomials.ranges import (
     EVERYTHING,
@@ -114,14 +112,10 @@ def extreme_values(polynomial: Polynomial, bounds: Mapping[str, Interval]) -> tu
             if not any(exponents):
                 continue
             value = Fraction(ends[side])
-            equations.append(ring.from_dict({tuple(exponents): c}) - _rational(value))
+            equations.append(ring.from_dict({tuple(exponents): c}) - value)
             powers = {n: int(e) for n, e in zip(ring.names, exponents, strict=True) if e}
             largest = {n: Fraction(max(-bounds[n][0], bounds[n][1])) for n in powers}
             if value and abs(value) == abs(fraction(c)) * prod(largest[n] ** e for n, e in powers.items()):
-                equations += [ring.gen(n) ** 2 - _rational(end**2) for n, end in largest.items()]
+                equations += [ring.gen(n) ** 2 - end**2 for n, end in largest.items()]
         return tuple(p for p in dict.fromkeys(equations) if p)
     return ()
-
-
-def _rational(number: Fraction) -> fmpq:
-    return fmpq(number.numerator, number.denominator)

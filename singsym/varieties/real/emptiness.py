@@ -130,7 +130,7 @@ def _real_consequences(
 ) -> list[Polynomial] | None:
     """What sums of squares, or terms at their bounds, force to vanish; `None` where that cannot be.
 
-    others: further equations, used for bounds only.
+    others: further equations, used for bounds and for terms at them.
     """
     forced: list[Polynomial] = []
     for f in _combinations(equations):
