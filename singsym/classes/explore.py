@@ -22,6 +22,7 @@ from singsym.elimination.verdict import Certainty, certainties, noted_if_true, w
 from singsym.polynomials import Polynomial
 from singsym.varieties.decomposition import Component, decompose
 from singsym.varieties.real.cartesian import Cartesian
+from singsym.varieties.real.consequences import real_consequences
 from singsym.varieties.real.emptiness import is_empty_over_reals, is_excluded
 from singsym.varieties.real.sampling import Points, numerical_points
 from singsym.varieties.real.witness import RealSystem
@@ -35,6 +36,8 @@ EMPTINESS_SECONDS = 10.0
 """So long a proof is waited for that a part has no zero at all."""
 REAL_EMPTINESS_SECONDS = 30.0
 """So long a proof is waited for that it has no real one."""
+SHORT_SECONDS = 5.0
+"""So long either is waited for where there are other ways to go on: more patches, or a task of its own."""
 
 
 @dataclass(frozen=True)
@@ -162,12 +165,12 @@ def _explored(branch: Branch) -> Explored:
         with Budget(branch.seconds, branch.memory_mb):
             whole = unsplit(branch.equations, branch.feasible.ring)
             system = restricted(branch.admitted, whole)
-            if not _points(system, whole, 1) and is_proven_empty(system):
+            if not _points(system, whole, 1) and is_proven_empty(system, SHORT_SECONDS):
                 return Explored()
             parts = patches(branch.equations, branch.admitted.nonzero, branch.feasible.ring)
-            for k, images in representatives([p.generators for p in parts], branch.kept):
-                work.patch(parts[k], images)
-                work.earlier += [image(parts[k].generators, reflection) for reflection in images]
+            chosen = list(representatives([p.generators for p in parts], branch.kept))
+            for k, images in chosen:
+                work.patch(parts[k], images, alone=len(chosen) == 1)
     except Undecided as reason:
         work.undecided.append(str(reason))
     return Explored(tuple(work.found), tuple(work.following), tuple(work.undecided))
@@ -183,7 +186,15 @@ class _Exploring:
     undecided: list[str] = field(default_factory=list)
     earlier: list[Equations] = field(default_factory=list)
 
-    def patch(self, patch: Patch, images: tuple[Reflection, ...]) -> None:
+    def patch(self, patch: Patch, images: tuple[Reflection, ...], *, alone: bool) -> None:
+        """Search a patch; from then on its points, and their images, are known to be elsewhere.
+
+        alone: whether there is no other patch, which could have to wait for this one.
+        """
+        self._search(patch, images, alone)
+        self.earlier += [image(patch.generators, reflection) for reflection in images]
+
+    def _search(self, patch: Patch, images: tuple[Reflection, ...], alone: bool) -> None:
         """The ranks on a patch as it stands; where that is not evident, on its components."""
         system = restricted(self.branch.admitted, patch)
         if () in system.exclusions:
@@ -195,7 +206,18 @@ class _Exploring:
             except NotEvident as doubt:
                 self._split(patch, doubt.polynomial, images)
             return
-        if is_proven_empty(system):
+        forced = real_consequences(system, system.closed_equations)
+        if forced is None:
+            return
+        smaller = patches((*patch.generators, *forced), system.nonzero, system.ring, thorough=True)
+        if [p.generators for p in smaller] != [patch.generators]:
+            for part in smaller:
+                self.patch(part, images, alone=alone and len(smaller) == 1)
+            return
+        if is_proven_empty(system, REAL_EMPTINESS_SECONDS if alone else SHORT_SECONDS):
+            return
+        if not alone:
+            self.following.append(self._part(images).within((), (), patch.generators, {}))
             return
         known: tuple[Equations, ...] = ()
         for component in decompose(patch.generators, system.nonzero, ring=system.ring):
@@ -264,16 +286,16 @@ def _points(system: RealSystem, patch: Patch, count: int = 3) -> Points:
     return numerical_points(replace(system, equations=patch.generators), count)
 
 
-def is_proven_empty(system: RealSystem) -> bool:
-    """Whether it is quickly proven that there is no real point."""
+def is_proven_empty(system: RealSystem, seconds: float = REAL_EMPTINESS_SECONDS) -> bool:
+    """Whether it is proven in so many seconds that there is no real point."""
     chart = Cartesian.of(system)
     try:
-        with current().part(EMPTINESS_SECONDS * engines.proof_patience()):
+        with current().part(min(seconds, EMPTINESS_SECONDS) * engines.proof_patience()):
             if chart.is_empty():
                 return True
     except Undecided:
         pass
-    budget = current().part(REAL_EMPTINESS_SECONDS * engines.proof_patience())
+    budget = current().part(seconds * engines.proof_patience())
     return noted_if_true(lambda: is_empty_over_reals(chart.trimmed, budget, tries=0).is_yes)
 
 

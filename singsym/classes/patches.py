@@ -10,6 +10,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
+from itertools import product
+from operator import itemgetter
 
 from flint import fmpq
 
@@ -62,8 +64,13 @@ def unsplit(equations: Sequence[Polynomial], ring: Ring) -> Patch:
     return Patch(ring, {n: _reduced(v) for n, v in solved.items()}, _all_reduced(rest))
 
 
-def patches(equations: Iterable[Polynomial], nonzero: Sequence[Polynomial], ring: Ring) -> tuple[Patch, ...]:
+def patches(
+    equations: Iterable[Polynomial], nonzero: Sequence[Polynomial], ring: Ring, *, thorough: bool = False
+) -> tuple[Patch, ...]:
     """Patches that together hold all zeros of the equations off those of `nonzero`; none where that is seen.
+
+    thorough: also subtract multiples of equations by terms, not only by numbers, where that makes others
+    shorter: more products are seen, and there may be many more patches.
 
     >>> R = Ring(("x", "y", "z"))
     >>> x, y, z = R.gens
@@ -87,7 +94,7 @@ def patches(equations: Iterable[Polynomial], nonzero: Sequence[Polynomial], ring
             others = [_product(f, ring) for f in products if f is not chosen]
             waiting += [((*single, *others, p), solved) for p in reversed(chosen)]
             continue
-        single = _shortened(single)
+        single = _shortened(single, thorough)
         if len(set(single)) < len(factored) or any(p.factors() != [(p, 1)] for p in single):
             waiting.append((tuple(single), solved))
             continue
@@ -114,7 +121,7 @@ def _product(factors: Sequence[Polynomial], ring: Ring) -> Polynomial:
     return total
 
 
-def _shortened(equations: Sequence[Polynomial]) -> list[Polynomial]:
+def _shortened(equations: Sequence[Polynomial], thorough: bool) -> list[Polynomial]:
     """Equations with multiples of each other taken away wherever that leaves fewer terms."""
     work = list(equations)
     changed = True
@@ -124,7 +131,7 @@ def _shortened(equations: Sequence[Polynomial]) -> list[Polynomial]:
             for q in work:
                 if q is p or not q or len(q) > LONGEST or len(p) > LONGEST:
                     continue
-                candidate = _without(p, q)
+                candidate = _without(p, q, thorough)
                 if candidate is not None:
                     work[i] = candidate
                     changed = True
@@ -133,17 +140,23 @@ def _shortened(equations: Sequence[Polynomial]) -> list[Polynomial]:
 
 
 @lru_cache(maxsize=100_000)
-def _without(p: Polynomial, q: Polynomial) -> Polynomial | None:
-    """p minus the multiple of q that leaves fewest terms, None where that is no gain."""
+def _without(p: Polynomial, q: Polynomial, thorough: bool) -> Polynomial | None:
+    """p minus the multiple of q, by a number or a term, that leaves fewest terms; None without a gain."""
     terms, other = _terms(p), _terms(q)
-    ratios = Counter(terms[m] / c for m, c in other.items() if m in terms)
-    if not ratios:
+    met: Counter[tuple[int, ...]] = Counter()
+    cancelled: Counter[tuple[tuple[int, ...], fmpq]] = Counter()
+    pairs = product(terms, other) if thorough else ((m, m) for m in other if m in terms)
+    for m, n in pairs:
+        quotient = tuple(i - j for i, j in zip(m, n, strict=True))
+        if min(quotient) >= 0:
+            met[quotient] += 1
+            cancelled[quotient, terms[m] / other[n]] += 1
+    # terms of the multiple are lost where they cancel one of p, and gained where they meet none
+    gains = ((count + met[place[0]], place) for place, count in cancelled.items())
+    gain, (quotient, ratio) = max(gains, default=(0, ((), fmpq(0))), key=itemgetter(0))
+    if gain <= len(other):
         return None
-    # a term of q is lost where p has none, and gained where both cancel
-    ratio, cancelled = max(ratios.items(), key=lambda item: item[1])
-    if cancelled <= len(other) - ratios.total():
-        return None
-    candidate = p - q * ratio
+    candidate = p - q * p.ring.from_dict({quotient: ratio})
     return candidate.primitive() if candidate else candidate
 
 

@@ -48,6 +48,15 @@ def test_numerical_points_lie_on_the_set() -> None:
     assert all(abs(a * a + b * b - 4) < 1e-9 for a, b in found)
 
 
+def test_numerical_points_within_a_narrow_range() -> None:
+    """Random starts are hardly ever there: the inequalities are among the equations, with slack."""
+    ring = Ring(("x", "y"))
+    x, y = ring.gens
+    found = numerical_points(RealSystem(ring, (x - y**2,), positive=(10 * x - 200, 201 - 10 * x)))
+    assert len(found) == 3
+    assert all(20 < a < 20.1 for a, _ in found)
+
+
 def test_numerical_points_of_an_empty_set() -> None:
     ring = Ring(("x",))
     assert numerical_points(RealSystem(ring, (ring.gens[0] ** 2 + 1,))) == ()
@@ -65,6 +74,23 @@ def test_a_point_of_two_patches_is_counted_once() -> None:
     assert len(found) == 2
     pieces = [piece for part in found for piece in realise(RealTask(part, plane, Names())).pieces]
     assert sum(piece.points or 0 for piece in pieces) == 1
+
+
+def test_parts_without_points_are_searched_on_their_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of x y = 0 with 2 z^4 = 3 x - 5 and no short proof, x = 0 is empty and y = 0 is not."""
+    ring = Ring(("x", "y", "z"))
+    x, y, z = ring.gens
+    row = PolynomialMatrix.of(ring, [[x, y]])
+    parts = {name: row.select(columns=c) for name, c in (("L_I", [0]), ("L_O", [1]), ("L_p", []))}
+    problem = RankProblem({"L": row, **parts}, 0, 1, 1)
+    monkeypatch.setattr(search_module, "is_proven_empty", lambda *_: False)
+    monkeypatch.setattr(search_module, "numerical_points", lambda *_: ())
+    monkeypatch.setattr(search_module, "real_consequences", lambda *_: [])
+    branch = Branch(problem, RealSystem(ring, ()), (x * y, 2 * z**4 - 3 * x + 5))
+    first = explore(branch)
+    assert not first.found
+    assert [b.equations[0] for b in first.following] == [x, y]
+    assert not explore(first.following[0]).found
 
 
 def test_same_result_for_one_and_two_workers(reference: dict[str, object]) -> None:

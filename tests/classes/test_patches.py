@@ -1,4 +1,4 @@
-"""Quick splits: unit vectors that are parallel up to a turn."""
+"""Quick splits: unit vectors that are parallel up to a turn, and products behind multiples of equations."""
 
 from __future__ import annotations
 
@@ -45,3 +45,13 @@ def test_a_square_root_that_is_not_rational_is_left() -> None:
     """c1 c2 + 2 s1 c2 - 2 c1 s2 + s1 s2 turns by an angle whose cosine is 1/sqrt(5)."""
     equation = c1 * c2 + 2 * s1 * c2 - 2 * c1 * s2 + s1 * s2
     assert len(patches((*CIRCLES, equation), (), R)) == 1
+
+
+def test_products_behind_multiples_of_other_equations() -> None:
+    """(x y + z) w + x u with x y + z = 0 says x u = 0."""
+    ring = Ring(("x", "y", "z", "u", "w"))
+    x, y, z, u, w = ring.gens
+    equations = (x * y + z**2, (x * y + z**2) * w + x * u)
+    assert len(patches(equations, (), ring)) == 1
+    found = patches(equations, (), ring, thorough=True)
+    assert {part.generators for part in found} == {(x, z), (u, x * y + z**2)}

@@ -15,7 +15,7 @@ from singsym.elimination.budget import Budget, Undecided, current
 from singsym.elimination.verdict import Verdict, certainties
 from singsym.polynomials import Polynomial
 from singsym.varieties.decomposition import Component, decompose
-from singsym.varieties.real.bounds import extreme_values, sign_within, solution_bounds
+from singsym.varieties.real.consequences import real_consequences
 from singsym.varieties.real.critical import component_samples
 from singsym.varieties.real.points import RealPoint
 from singsym.varieties.real.roots import has_real_root
@@ -25,6 +25,7 @@ from singsym.varieties.real.witness import RealSystem, Witness, find_witness
 from singsym.varieties.real.zerodim import real_points
 
 _SEARCH_SECONDS = 15.0
+CONTRADICTED = "sums of squares bound the variables, and an equation or a condition fails within the bounds"
 
 
 def is_empty_over_reals(
@@ -52,13 +53,9 @@ def is_empty_over_reals(
 
 def _decided(system: RealSystem, budget: Budget, seed: int, tries: int) -> Verdict:
     equations = system.closed_equations
-    forced = _real_consequences(system, equations)
+    forced = real_consequences(system, equations)
     if forced is None:
-        return Verdict.yes(reason="a sum of squares with a positive constant is zero")
-    if _out_of_bounds(system, equations):
-        return Verdict.yes(
-            reason="sums of squares bound the variables, and a condition fails within the bounds"
-        )
+        return Verdict.yes(reason=CONTRADICTED)
     components = decompose([*equations, *forced], system.nonzero, ring=system.ring, budget=budget)
     components = tuple(c for c in components if not is_excluded(c, system))
     if not components:
@@ -96,11 +93,11 @@ def _component_verdict(
         return _from_points(real_points(component.ideal, budget), piece, "finitely many complex solutions")
     if _no_real_coordinate(component):
         return Verdict.yes(reason="a polynomial in one variable has no real root")
-    if _contradiction(component, system) or _out_of_bounds(system, (*equations, *component.generators)):
+    if _contradiction(component, system):
         return Verdict.yes(reason="a condition contradicts sums of squares")
-    forced = _real_consequences(piece, component.generators, equations)
+    forced = real_consequences(system, component.generators, equations)
     if forced is None:
-        return Verdict.yes(reason="a sum of squares with a positive constant is zero")
+        return Verdict.yes(reason=CONTRADICTED)
     if not all(component.vanishes(f) for f in forced):
         return _decided(replace(system, equations=(*component.generators, *forced)), budget, seed, tries)
     try:
@@ -123,49 +120,6 @@ def _from_points(points: Sequence[RealPoint], system: RealSystem, what: str) -> 
 
 
 # -- cheap certificates --------------------------------------------------------------------------------
-
-
-def _real_consequences(
-    system: RealSystem, equations: Sequence[Polynomial], others: Sequence[Polynomial] = ()
-) -> list[Polynomial] | None:
-    """What sums of squares, or terms at their bounds, force to vanish; `None` where that cannot be.
-
-    others: further equations, used for bounds and for terms at them.
-    """
-    forced: list[Polynomial] = []
-    for f in _combinations(equations):
-        squares = sum_of_squares(f)
-        if squares is None:
-            continue
-        roots = squares[1]
-        if any(r.is_constant for r in roots):
-            return None
-        if len(roots) > 1:
-            forced.extend(roots)
-    together = tuple(dict.fromkeys((*equations, *others)))
-    bounds = solution_bounds(system.ring, together)
-    if bounds is None:
-        return None
-    return [*forced, *(p for f in together for p in extreme_values(f, bounds))]
-
-
-def _out_of_bounds(system: RealSystem, equations: Sequence[Polynomial]) -> bool:
-    bounds = solution_bounds(system.ring, equations)
-    if bounds is None or any(sign_within(f, bounds) for f in equations):
-        return True
-    return any(sign_within(p, bounds) < 0 for p in (*system.positive, *system.nonnegative))
-
-
-def _combinations(equations: Sequence[Polynomial]) -> Iterator[Polynomial]:
-    """The equations, their sums and differences, and what is left when the constants of two cancel."""
-    yield from equations
-    if len(equations) <= 12:
-        for i, f in enumerate(equations):
-            for g in equations[:i]:
-                yield f + g
-                yield f - g
-                if f.constant and g.constant and abs(f.constant) != abs(g.constant):
-                    yield f * g.constant - g * f.constant
 
 
 def _contradiction(component: Component, system: RealSystem) -> bool:

@@ -31,18 +31,19 @@ def numerical_points(system: RealSystem, count: int = 3) -> Points:
     from singsym.varieties.real.search import Compiled, approach, gauss_newton
 
     ring = system.ring
-    compiled = Compiled((*system.equations, *ring.relations), ring)
+    extended = system.with_slack
+    compiled = Compiled(extended.closed_equations, extended.ring)
     random = numpy.random.default_rng(0)
     found: list[tuple[float, ...]] = []
     for number in STARTS:
-        starts = random.normal(size=(number, len(ring.names))) * 2
+        starts = random.normal(size=(number, compiled.size)) * 2
         for constant in ring.constants:
             starts[:, ring.index(constant.name)] = float((constant.low + constant.high) / 2)
         for near in approach(compiled, starts):
             x = gauss_newton(compiled, near, POLISHING)
             if x is None:
                 continue
-            point = tuple(map(float, x))
+            point = tuple(map(float, x[: len(ring.names)]))
             if all(is_off(point, group) for group in system.exclusions) and all(
                 p.evaluate(point) > -1e-9 for p in (*system.positive, *system.nonnegative)
             ):

@@ -8,7 +8,7 @@ Source: Hauenstein, Sottile, ACM Trans. Math. Softw. 38 (2012) 28 (certified sol
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import prod
 from typing import TYPE_CHECKING
@@ -56,6 +56,14 @@ class RealSystem:
     def nonzero(self) -> tuple[Polynomial, ...]:
         """Single polynomials that do not vanish on any solution."""
         return (*self.positive, *(group[0] for group in self.exclusions if len(group) == 1))
+
+    @property
+    def with_slack(self) -> RealSystem:
+        """The inequalities as equations p = s^2 with more variables, which come last in the ring."""
+        sided = (*self.positive, *self.nonnegative)
+        wide = self.ring.with_names((*self.ring.names, *(f"slack {k}" for k in range(len(sided)))))
+        slack = [wide.convert(p) - wide.gen(f"slack {k}") ** 2 for k, p in enumerate(sided)]
+        return RealSystem(wide, (*map(wide.convert, self.equations), *slack), self.exclusions)
 
     def admits(self, point: RealPoint | BoxPoint) -> bool:
         """Whether a point that solves the equations meets all other conditions, by exact signs."""
@@ -158,12 +166,9 @@ def samples(system: RealSystem, equations: Sequence[Polynomial], seed: int, trie
     from singsym.varieties.real.search import Compiled, gauss_newton
 
     ring = system.ring
-    sided = (*system.positive, *system.nonnegative)
-    wide = ring.with_names((*ring.names, *(f"slack {k}" for k in range(len(sided)))))
-    slack = [wide.gen(f"slack {k}") for k in range(len(sided))]
-    extended = [wide.convert(f) for f in equations]
-    extended += [wide.convert(p) - s * s for p, s in zip(sided, slack, strict=True)]
-    compiled = Compiled(extended, wide)
+    extended = replace(system, equations=tuple(equations)).with_slack
+    wide = extended.ring
+    compiled = Compiled(extended.equations, wide)
     excluded = [Compiled(group, ring) for group in system.exclusions]
     random = np.random.default_rng(seed)
     fixed = {ring.index(c.name): float((c.low + c.high) / 2) for c in ring.constants}
@@ -171,7 +176,7 @@ def samples(system: RealSystem, equations: Sequence[Polynomial], seed: int, trie
         start = random.normal(size=len(wide.names)) * (0.7, 1.5, 3.0, 8.0)[attempt % 4]
         for k, value in fixed.items():
             start[k] = value
-        x = gauss_newton(compiled, start) if extended else start
+        x = gauss_newton(compiled, start) if compiled.count else start
         if x is None:
             continue
         x = x[: len(ring.names)]
