@@ -300,7 +300,7 @@ class _Work:
         doubts += explored.doubts(candidate.types)
         if present:
             certainty = present[0].verdict.certainty
-            verdict = Verdict.yes(certainty, reason=_more(doubts))
+            verdict = Verdict.yes(certainty, reason=_reservations(own, doubts))
             steps: tuple[str, ...] = (found_in(candidate.types),)
         elif doubts:
             verdict = Verdict.undecided("; ".join(dict.fromkeys(doubts)))
@@ -406,9 +406,13 @@ def _in_doubt(piece: Piece, known: int | None) -> bool:
     return known is None or known < 2 or piece.at_most is None or piece.at_most > known
 
 
-def _more(doubts: Sequence[str]) -> str:
-    """What is not known of a class that occurs."""
-    return f"there may be more of it: {'; '.join(dict.fromkeys(doubts))}" if doubts else ""
+def _reservations(pieces: Iterable[Piece], doubts: Sequence[str]) -> str:
+    """What is not known, or not proven, of a class that occurs."""
+    if doubts:
+        return f"there may be more of it: {'; '.join(dict.fromkeys(doubts))}"
+    if any(p.verdict.is_undecided and p.bounded != "proven" for p in pieces):
+        return "that no part of it has a larger dimension rests on random primes"
+    return ""
 
 
 def _components(pieces: Sequence[Piece], loci: Sequence[Locus]) -> int | None:

@@ -189,10 +189,21 @@ class _Exploring:
     def patch(self, patch: Patch, images: tuple[Reflection, ...], *, alone: bool) -> None:
         """Search a patch; from then on its points, and their images, are known to be elsewhere.
 
-        alone: whether there is no other patch, which could have to wait for this one.
+        alone: whether there is no other patch, which might have to wait for this one.
         """
-        self._search(patch, images, alone)
+        before = list(self.found), list(self.following), list(self.earlier)
+        try:
+            self._search(patch, images, alone)
+        except Undecided:
+            if alone:
+                raise
+            self.found, self.following, self.earlier = before
+            self._postpone(patch, images)
         self.earlier += [image(patch.generators, reflection) for reflection in images]
+
+    def _postpone(self, patch: Patch, images: tuple[Reflection, ...]) -> None:
+        """A patch as a branch of its own."""
+        self.following.append(self._part(images).within((), (), patch.generators, {}))
 
     def _search(self, patch: Patch, images: tuple[Reflection, ...], alone: bool) -> None:
         """The ranks on a patch as it stands; where that is not evident, on its components."""
@@ -217,7 +228,7 @@ class _Exploring:
         if is_proven_empty(system, REAL_EMPTINESS_SECONDS if alone else SHORT_SECONDS):
             return
         if not alone:
-            self.following.append(self._part(images).within((), (), patch.generators, {}))
+            self._postpone(patch, images)
             return
         known: tuple[Equations, ...] = ()
         for component in decompose(patch.generators, system.nonzero, ring=system.ring):

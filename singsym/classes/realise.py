@@ -25,7 +25,7 @@ from singsym.varieties.real.box import BoxPoint
 from singsym.varieties.real.cartesian import Cartesian
 from singsym.varieties.real.curve import real_curve
 from singsym.varieties.real.curve_equations import NotACurve
-from singsym.varieties.real.cuts import Cut, dimension_by_cuts
+from singsym.varieties.real.cuts import Cut, dimension_by_cuts, seems_at_most
 from singsym.varieties.real.dimension import component_dimension, independent, real_dimension
 from singsym.varieties.real.intervals import at_precision, evaluate
 from singsym.varieties.real.points import RealPoint
@@ -119,7 +119,7 @@ def realise(task: RealTask) -> Realised:
     system = replace(task.feasible, equations=stratum.equations, exclusions=exclusions)
     points: Points = ()
     if task.known is not None:
-        piece = replace(piece, at_most=_bound(system, BOUND_SECONDS))
+        piece = _bounded(piece, system, task.known, BOUND_SECONDS)
         if piece.at_most is not None and piece.at_most <= task.known:
             verdict = Verdict.undecided(f"only a dimension above {task.known} would matter")
             return Realised(tuple(_images(replace(piece, verdict=verdict), points, task)))
@@ -130,8 +130,9 @@ def realise(task: RealTask) -> Realised:
             verdict = replace(piece.verdict, certainty=weakest(piece.verdict.certainty, *seen))
             piece = replace(piece, verdict=verdict)
     except Undecided as reason:
-        at_most = None if task.known is None else _bound(system, LONG_BOUND_SECONDS)
-        piece = replace(piece, verdict=Verdict.undecided(str(reason)), at_most=at_most)
+        piece = replace(piece, verdict=Verdict.undecided(str(reason)))
+        if task.known is not None:
+            piece = _bounded(piece, system, task.known, LONG_BOUND_SECONDS)
     return Realised(tuple(_images(piece, points, task)))
 
 
@@ -208,12 +209,18 @@ def _charted(system: RealSystem, patch: Patch) -> tuple[Cartesian, int]:
     return chart, len(patch.solved) + chart.left_out
 
 
-def _bound(system: RealSystem, seconds: float) -> int | None:
-    """A bound of the dimension, the complex one, where it is found soon."""
+def _bounded(piece: Piece, system: RealSystem, known: int, seconds: float) -> Piece:
+    """The piece with a bound of its dimension where one is found soon: the complex one, else `known`."""
     chart, beside = _charted(system, unsplit(system.closed_equations, system.ring))
-    with suppress(Undecided), Budget(seconds):
-        return Ideal(system.ring, chart.system.closed_equations).dimension - beside
-    return None
+    equations = chart.system.closed_equations
+    with certainties() as seen:
+        with suppress(Undecided), Budget(seconds):
+            at_most = Ideal(system.ring, equations).dimension - beside
+            return replace(piece, at_most=at_most, bounded=weakest(*seen))
+        with suppress(Undecided), Budget(seconds):
+            if seems_at_most(system.ring, equations, known + beside):
+                return replace(piece, at_most=known, bounded="modular")
+    return piece
 
 
 def _cut(system: RealSystem) -> Cut | None:

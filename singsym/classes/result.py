@@ -11,7 +11,7 @@ from html import escape
 from typing import Any
 
 from singsym.classes.types import Defects, SingularityClass, SingularityType
-from singsym.elimination.verdict import Verdict
+from singsym.elimination.verdict import Certainty, Verdict
 from singsym.kinematics.reduction import Reduction
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import Mechanism
@@ -53,7 +53,7 @@ class Piece:
     path: the factors and minors set to zero on the way here, as they are printed.
     basis: generators of the ideal of the piece, loop equations included.
     dimension: the real dimension, -1 when empty, None where undecided.
-    at_most: a bound of the dimension, where that itself is not known.
+    at_most: a bound of the dimension, where that itself is not known; bounded: how the bound is known.
     points: the number of real points of a finite piece; components: connected components where known.
     """
 
@@ -67,6 +67,7 @@ class Piece:
     components: int | None = None
     witnesses: tuple[Configuration, ...] = ()
     at_most: int | None = None
+    bounded: Certainty = "proven"
 
     @property
     def provisional(self) -> bool:

@@ -12,12 +12,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from random import Random
 
 from flint import fmpq
 
 from singsym.elimination.budget import Undecided, current
 from singsym.elimination.ideal import Ideal
-from singsym.elimination.verdict import Certainty
+from singsym.elimination.residues import residue_basis
+from singsym.elimination.verdict import Certainty, note
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.real.dimension import has_rank
 from singsym.varieties.real.witness import RealSystem, Witness, frozen_values, samples
@@ -69,6 +71,34 @@ def dimension_by_cuts(system: RealSystem) -> Cut:
         tuple(map(ring.convert, system.nonnegative)),
     )
     return Cut(dimension + free, _cut_point(small, ideal, dimension), ideal.certainty)
+
+
+def seems_at_most(ring: Ring, equations: Sequence[Polynomial], dimension: int) -> bool:
+    """Whether no complex zero is left on more random hyperplanes than a dimension, modulo a random prime.
+
+    Each hyperplane meets every component of positive dimension unless its slope is one of few: what a prime
+    is to coefficients, it is to hyperplanes.  False proves nothing; nor does True, which is hardly ever
+    wrong, and noted as "modular".  Raises `Undecided` out of budget.
+
+    >>> R = Ring(("x", "y", "z"))
+    >>> x, y, z = R.gens
+    >>> seems_at_most(R, [x * y, x * z], 1)
+    False
+    """
+    small = used_ring(ring, equations)
+    cuts = dimension + 1 - (len(ring.names) - len(small.names))
+    if cuts < 0:
+        return False
+    random, fixed = Random(0), {c.name for c in ring.constants}
+    free = [small.gen(name) for name in small.names if name not in fixed]
+    planes = [
+        sum((g * random.randint(1, 2**30) for g in free), start=small.one * random.randint(1, 2**30))
+        for _ in range(cuts)
+    ]
+    if residue_basis(Ideal(small, (*map(small.convert, equations), *planes))) != (small.one,):
+        return False
+    note("modular")
+    return True
 
 
 def _conditions(system: RealSystem) -> tuple[tuple[Polynomial, ...], ...]:

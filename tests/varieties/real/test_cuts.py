@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from singsym.polynomials import Polynomial, Ring
-from singsym.varieties.real.cuts import dimension_by_cuts
+from singsym.varieties.real.cuts import dimension_by_cuts, seems_at_most
 from singsym.varieties.real.witness import RealSystem
 
 R = Ring(("x", "y", "z"))
@@ -49,3 +49,21 @@ def test_an_isolated_point_beside_a_curve_is_no_point_of_the_curve() -> None:
     cut = dimension_by_cuts(RealSystem(R, (y**2 - x**2 * (x - 1), z, z * x), positive=(1 - x,)))
     assert cut.dimension == 1
     assert cut.point is None
+
+
+@pytest.mark.engines
+@pytest.mark.parametrize(
+    ("equations", "dimension"),
+    [
+        ((SPHERE,), 2),
+        # a line and a plane; the line alone; two points; nothing, in a space of three dimensions
+        ((x * y, x * z), 2),
+        ((y, z * (y + 1)), 1),
+        ((y, z, x**2 - 1), 0),
+        ((y, z, y * x - 1), -1),
+        # x is free
+        ((y**2 + z**2 - 1,), 2),
+    ],
+)
+def test_hyperplanes_bound_the_dimension(equations: tuple[Polynomial, ...], dimension: int) -> None:
+    assert [seems_at_most(R, equations, d) for d in range(4)] == [d >= dimension for d in range(4)]
