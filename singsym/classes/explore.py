@@ -6,38 +6,41 @@ det L_I or of det L_O (the Proposition of section 2.3), so the search starts wit
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from operator import attrgetter
 
 from singsym.classes.patches import Patch, patches, unsplit
+from singsym.classes.presence import (
+    REAL_EMPTINESS_SECONDS,
+    SHORT_SECONDS,
+    is_proven_empty,
+    points_on,
+    restricted,
+    samples_of,
+)
 from singsym.classes.strata import Ground, Least, NotEvident, RankProblem, Stratum, ranked
 from singsym.classes.symmetry import IDENTITY, Reflection, compose, image, keeps, representatives
 from singsym.classes.types import Defects, SingularityType
 from singsym.classes.work import Runner
 from singsym.elimination import engines
-from singsym.elimination.budget import Budget, Undecided, current
-from singsym.elimination.verdict import Certainty, certainties, noted_if_true, weakest
+from singsym.elimination.budget import Budget, Undecided
+from singsym.elimination.verdict import Certainty, certainties, weakest
 from singsym.polynomials import Polynomial
-from singsym.varieties.decomposition import Component, decompose
-from singsym.varieties.real.cartesian import Cartesian
+from singsym.varieties.circles import unit_circles
+from singsym.varieties.decomposition import decompose
 from singsym.varieties.real.consequences import real_consequences
-from singsym.varieties.real.emptiness import is_empty_over_reals, is_excluded
-from singsym.varieties.real.sampling import Points, numerical_points
 from singsym.varieties.real.witness import RealSystem
-from singsym.varieties.real.zerodim import real_points
+from singsym.varieties.splitting import irreducible_factors
 
 _T = SingularityType
 _SIMPLE = (_T(0), _T.RI | _T.IO, _T.RO | _T.II)
 """The types of strata that are known where (4) and (5) are."""
 Equations = tuple[Polynomial, ...]
-EMPTINESS_SECONDS = 10.0
-"""So long a proof is waited for that a part has no zero at all."""
-REAL_EMPTINESS_SECONDS = 30.0
-"""So long a proof is waited for that it has no real one."""
-SHORT_SECONDS = 5.0
-"""So long either is waited for where there are other ways to go on: more patches, or a task of its own."""
+MOST_SPLITS = 3
+"""So often a part without known points is split by a variable before it is decomposed."""
 
 
 @dataclass(frozen=True)
@@ -52,6 +55,7 @@ class Branch:
     symmetries: reflections that keep the whole problem; images: those under which this part stands for
         other parts, which are not searched.
     elsewhere: sets that other branches search; their points are not counted here.
+    splits: how often it was split by a variable without knowing a point.
     seconds, memory_mb: the budget of the decomposition.
     """
 
@@ -66,6 +70,7 @@ class Branch:
     symmetries: tuple[Reflection, ...] = (IDENTITY,)
     images: tuple[Reflection, ...] = (IDENTITY,)
     elsewhere: tuple[Equations, ...] = ()
+    splits: int = 0
     seconds: float | None = None
     memory_mb: int | None = None
 
@@ -165,7 +170,7 @@ def _explored(branch: Branch) -> Explored:
         with Budget(branch.seconds, branch.memory_mb):
             whole = unsplit(branch.equations, branch.feasible.ring)
             system = restricted(branch.admitted, whole)
-            if not _points(system, whole, 1) and is_proven_empty(system, SHORT_SECONDS):
+            if not points_on(system, whole, 1) and is_proven_empty(system, SHORT_SECONDS, last=False):
                 return Explored()
             parts = patches(branch.equations, branch.admitted.nonzero, branch.feasible.ring)
             chosen = list(representatives([p.generators for p in parts], branch.kept))
@@ -210,7 +215,7 @@ class _Exploring:
         system = restricted(self.branch.admitted, patch)
         if () in system.exclusions:
             return
-        found = _points(system, patch)
+        found = points_on(system, patch)
         if found:
             try:
                 self._ranked(Ground(patch, found, system=system), images)
@@ -225,14 +230,20 @@ class _Exploring:
             for part in smaller:
                 self.patch(part, images, alone=alone and len(smaller) == 1)
             return
-        if is_proven_empty(system, REAL_EMPTINESS_SECONDS if alone else SHORT_SECONDS):
+        deciding = _deciding_variable(system) if self.branch.splits < MOST_SPLITS else None
+        last = alone and deciding is None
+        if is_proven_empty(system, REAL_EMPTINESS_SECONDS if last else SHORT_SECONDS, last=last):
             return
         if not alone:
             self._postpone(patch, images)
             return
+        if deciding is not None:
+            self.branch = replace(self.branch, splits=self.branch.splits + 1)
+            self._split(patch, deciding, images)
+            return
         known: tuple[Equations, ...] = ()
         for component in decompose(patch.generators, system.nonzero, ring=system.ring):
-            samples = _samples(component, system)
+            samples = samples_of(component, system)
             if samples is not None:
                 self._ranked(Ground(patch, samples, component), images, known)
                 known = (*known, component.generators)
@@ -273,54 +284,20 @@ class _Exploring:
         return replace(branch, images=all_images, elsewhere=(*branch.elsewhere, *self.earlier, *known))
 
 
-def _left(exclusions: Iterable[Equations], equations: Equations) -> tuple[Equations, ...]:
-    """The exclusions without zeros and equations; an empty one where nothing is left."""
-    known = {p.primitive() for p in equations if p}
-    return tuple(tuple(g for g in group if g and g.primitive() not in known) for group in exclusions)
-
-
-def restricted(system: RealSystem, patch: Patch) -> RealSystem:
-    """A set on a patch, in the variables that are not solved for."""
-    restrict = patch.restrict
-    exclusions = (tuple(map(restrict, group)) for group in system.exclusions)
-    return RealSystem(
-        system.ring,
-        patch.rest,
-        _left(exclusions, patch.rest),
-        tuple(map(restrict, system.positive)),
-        tuple(map(restrict, system.nonnegative)),
+def _deciding_variable(system: RealSystem) -> Polynomial | None:
+    """The variable without which the equations lose most terms, circles aside, if it may be zero or not."""
+    ring = system.ring
+    known = irreducible_factors(system.nonzero) or frozenset()
+    circles = {name for pair in unit_circles(system.equations) for name in pair}
+    counts = Counter(
+        name
+        for p in system.equations
+        if len(p) > 3
+        for m, _ in p.terms()
+        for name, power in zip(ring.names, m, strict=True)
+        if power and name in circles and ring.gen(name) not in known
     )
-
-
-def _points(system: RealSystem, patch: Patch, count: int = 3) -> Points:
-    """Numerical points of a set on a patch, in all variables."""
-    return numerical_points(replace(system, equations=patch.generators), count)
-
-
-def is_proven_empty(system: RealSystem, seconds: float = REAL_EMPTINESS_SECONDS) -> bool:
-    """Whether it is proven in so many seconds that there is no real point."""
-    chart = Cartesian.of(system)
-    try:
-        with current().part(min(seconds, EMPTINESS_SECONDS) * engines.proof_patience()):
-            if chart.is_empty():
-                return True
-    except Undecided:
-        pass
-    budget = current().part(seconds * engines.proof_patience())
-    return noted_if_true(lambda: is_empty_over_reals(chart.trimmed, budget, tries=0).is_yes)
-
-
-def _samples(component: Component, feasible: RealSystem) -> Points | None:
-    """Real points of a component, numerical ones that only guide; None where it is proven to have none."""
-    if is_excluded(component, feasible):
-        return None
-    if component.dimension == 0:
-        points = [p for p in real_points(component.ideal) if feasible.admits(p)]
-        return tuple(p.floats for p in points) or None
-    found = numerical_points(replace(feasible, equations=component.generators))
-    if not found and is_empty_over_reals(replace(feasible, equations=component.generators), tries=0).is_yes:
-        return None
-    return found
+    return ring.gen(max(counts, key=lambda name: (counts[name], name))) if counts else None
 
 
 Loci = tuple[Equations, ...]
@@ -370,11 +347,19 @@ def search(
 
 
 def _proven(modular: Sequence[tuple[Branch, Explored]], runner: Runner, budget: Budget) -> Certainty:
-    """How branches that rest on primes are known, after a second look with much time for proofs."""
-    branches = [branch for branch, _ in modular]
-    seconds = runner.map_within(explore_patiently, branches, "strata, proofs over Q", budget)
+    """How branches that rest on primes are known, after a second look with much time for proofs.
+
+    An empty one may be taken apart in another way, as long as nothing is found in the end.
+    """
+    stage = "strata, proofs over Q"
+    empty = [branch for branch, first in modular if first == Explored(certainty=first.certainty)]
+    others = [(branch, first) for branch, first in modular if branch not in empty]
     known: list[Certainty] = []
-    for (_, first), second in zip(modular, seconds, strict=True):
+    for _, part in runner.grow(explore_patiently, empty, attrgetter("following"), stage, budget):
+        nothing = part is not None and not part.found and not part.undecided
+        known.append(part.certainty if part is not None and nothing else "modular")
+    seconds = runner.map_within(explore_patiently, [branch for branch, _ in others], stage, budget)
+    for (_, first), second in zip(others, seconds, strict=True):
         same = second is not None and replace(second, certainty=first.certainty) == first
         known.append(second.certainty if second is not None and same else first.certainty)
     return weakest(*known)

@@ -114,6 +114,20 @@ def patches(
     return tuple(sorted((*found.values(), *left), key=lambda p: str(p.generators)))
 
 
+def is_combination(polynomial: Polynomial, equations: Sequence[Polynomial]) -> bool:
+    """Whether nothing is left of a polynomial that multiples of equations by terms make shorter and shorter.
+
+    >>> x, y, z = Ring(("x", "y", "z")).gens
+    >>> is_combination(x * y * z - z**2 + x - y, [x * y - z, x - y])
+    True
+    """
+    usable = [q for q in equations if len(q) <= LONGEST]
+    left: Polynomial | None = polynomial
+    while left and len(left) <= LONGEST:
+        left = next((p for q in usable if (p := _without(left, q, True)) is not None), None)
+    return left is not None and not left
+
+
 def _product(factors: Sequence[Polynomial], ring: Ring) -> Polynomial:
     total = ring.one
     for factor in factors:

@@ -12,8 +12,9 @@ from dataclasses import dataclass, field, replace
 
 from flint import arb
 
-from singsym.classes.explore import Found, is_proven_empty, restricted
+from singsym.classes.explore import Found
 from singsym.classes.patches import Patch, unsplit
+from singsym.classes.presence import is_proven_empty, restricted
 from singsym.classes.result import Configuration, Equations, Piece
 from singsym.classes.strata import Stratum
 from singsym.classes.symmetry import image

@@ -15,11 +15,12 @@ from functools import cached_property
 from itertools import combinations, product
 from math import comb, prod
 
-from singsym.classes.patches import Patch
+from singsym.classes.patches import Patch, is_combination
 from singsym.classes.types import Defects, SingularityType
 from singsym.elimination import engines
 from singsym.elimination.budget import Undecided
 from singsym.elimination.ideal import Ideal
+from singsym.elimination.verdict import unnoted, weakest
 from singsym.kinematics.nonzero import Certifier
 from singsym.kinematics.placement import ConfigurationSpace
 from singsym.minors.blocks import easy_columns
@@ -147,6 +148,8 @@ class Ground:
             return False
         if self.component is not None and self.component.ideal.contains(polynomial):
             return True
+        if is_combination(restricted, self.equations if self.component else self.patch.rest):
+            return True
         if self.component is None:
             if self._chart is not None and self._chart[0].vanishes(restricted, self._chart[1]):
                 return True
@@ -257,8 +260,10 @@ def _with_locus(block: PolynomialMatrix, ground: Ground, certifier: Certifier, l
         if not minor:
             continue
         try:
-            if ground.vanishes(minor, certifier):
-                continue
+            with unnoted() as seen:
+                if ground.vanishes(minor, certifier):
+                    exact = exact and weakest(*seen) == "proven"
+                    continue
         except NotEvident:
             # with fewer minors the zeros are a larger set
             exact = False

@@ -288,13 +288,16 @@ class Certifier:
         found: dict[Polynomial, str] = {}
         for exclusion in reversed(self.space.exclusions):
             words = "nonzero outside the excluded " + ", ".join(f"{short_text(g, 4)} = 0" for g in exclusion)
-            total = sum((g * g for g in exclusion), start=self.space.ring.zero)
-            for form in (total, self.shorten(total), *self.forms(total)):
-                if form:
-                    found[form.primitive()] = words
-                    found |= {f: words for f, _ in form.factors() if len(form) <= LONGEST_SUM}
+            if sum(map(len, exclusion)) <= LONGEST_SUM:
+                total = sum((g * g for g in exclusion), start=self.space.ring.zero)
+                for form in (total, self.shorten(total), *self.forms(total)):
+                    if form:
+                        found[form.primitive()] = words
+                    if len(form) <= LONGEST_SUM:
+                        found |= {f: words for f, _ in form.factors()}
             common = fold(Polynomial.gcd, exclusion, self.space.ring.zero)
-            found |= {f: words for f, _ in common.factors()}
+            if len(common) <= LONGEST:
+                found |= {f: words for f, _ in common.factors()}
         for positive in reversed(self.space.positive):
             words = f"a divisor of {short_text(positive)} > 0"
             found |= dict.fromkeys((positive.primitive(), *(f for f, _ in positive.factors())), words)

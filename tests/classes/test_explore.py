@@ -83,8 +83,9 @@ def test_parts_without_points_are_searched_on_their_own(monkeypatch: pytest.Monk
     row = PolynomialMatrix.of(ring, [[x, y]])
     parts = {name: row.select(columns=c) for name, c in (("L_I", [0]), ("L_O", [1]), ("L_p", []))}
     problem = RankProblem({"L": row, **parts}, 0, 1, 1)
-    monkeypatch.setattr(search_module, "is_proven_empty", lambda *_: False)
-    monkeypatch.setattr(search_module, "numerical_points", lambda *_: ())
+    monkeypatch.setattr(search_module, "is_proven_empty", lambda *_, **__: False)
+    monkeypatch.setattr(search_module, "points_on", lambda *_: ())
+    monkeypatch.setattr("singsym.classes.presence.numerical_points", lambda *_: ())
     monkeypatch.setattr(search_module, "real_consequences", lambda *_: [])
     branch = Branch(problem, RealSystem(ring, ()), (x * y, 2 * z**4 - 3 * x + 5))
     first = explore(branch)

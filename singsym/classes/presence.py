@@ -1,0 +1,96 @@
+"""Whether parts of a configuration space have real points: numerical ones to guess from, or a proof of none.
+
+Source: singsym's own order of the proofs in `varieties.real`, the cheap ones first.
+"""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from dataclasses import replace
+
+from singsym.classes.patches import Patch
+from singsym.elimination import engines
+from singsym.elimination.budget import Undecided, current
+from singsym.elimination.verdict import Certainty, note, unnoted, weakest
+from singsym.varieties.decomposition import Component
+from singsym.varieties.real.cartesian import Cartesian
+from singsym.varieties.real.emptiness import is_empty_over_reals, is_excluded
+from singsym.varieties.real.sampling import Points, numerical_points
+from singsym.varieties.real.witness import RealSystem
+from singsym.varieties.real.zerodim import real_points
+
+EMPTINESS_SECONDS = 10.0
+"""So long a proof is waited for that a part has no zero at all."""
+REAL_EMPTINESS_SECONDS = 30.0
+"""So long a proof is waited for that it has no real one."""
+SHORT_SECONDS = 5.0
+"""So long either is waited for where there are other ways to go on: more patches, or a task of its own."""
+
+
+def restricted(system: RealSystem, patch: Patch) -> RealSystem:
+    """A set on a patch, in the variables that are not solved for.
+
+    Exclusions come without zeros and equations; an empty one leaves nothing.
+    """
+    restrict = patch.restrict
+    known = {p.primitive() for p in patch.rest if p}
+    groups = (map(restrict, group) for group in system.exclusions)
+    return RealSystem(
+        system.ring,
+        patch.rest,
+        tuple(tuple(g for g in group if g and g.primitive() not in known) for group in groups),
+        tuple(map(restrict, system.positive)),
+        tuple(map(restrict, system.nonnegative)),
+    )
+
+
+def points_on(system: RealSystem, patch: Patch, count: int = 3) -> Points:
+    """Numerical points of a set on a patch, in all variables."""
+    return numerical_points(replace(system, equations=patch.generators), count)
+
+
+def is_proven_empty(
+    system: RealSystem, seconds: float = REAL_EMPTINESS_SECONDS, *, last: bool = True
+) -> bool:
+    """Whether it is shown in so many seconds that there is no real point.
+
+    last: whether there is no other way to go on.  With patience an answer that rests on primes will only do
+    then, and where there is no better one.
+    """
+    patient = engines.proof_patience() > 1
+    longer = engines.proof_patience() if last else 1.0
+    chart = Cartesian.of(system)
+
+    def no_complex_point() -> bool:
+        with suppress(Undecided), current().part(min(seconds, EMPTINESS_SECONDS) * longer):
+            return chart.is_empty()
+        return False
+
+    def no_real_point() -> bool:
+        return is_empty_over_reals(chart.trimmed, current().part(seconds * longer), tries=0).is_yes
+
+    doubtful: list[Certainty] = []
+    for proof in (no_complex_point, no_real_point):
+        with unnoted() as seen:
+            answer = proof()
+        if answer and (not patient or weakest(*seen) == "proven"):
+            note(weakest(*seen))
+            return True
+        if answer:
+            doubtful += seen
+    if doubtful and last:
+        note(weakest(*doubtful))
+    return bool(doubtful) and last
+
+
+def samples_of(component: Component, feasible: RealSystem) -> Points | None:
+    """Real points of a component, numerical ones that only guide; None where it is proven to have none."""
+    if is_excluded(component, feasible):
+        return None
+    if component.dimension == 0:
+        points = [p for p in real_points(component.ideal) if feasible.admits(p)]
+        return tuple(p.floats for p in points) or None
+    found = numerical_points(replace(feasible, equations=component.generators))
+    if not found and is_empty_over_reals(replace(feasible, equations=component.generators), tries=0).is_yes:
+        return None
+    return found
