@@ -14,7 +14,7 @@ from operator import attrgetter
 
 from singsym.classes.patches import Patch, patches, unsplit
 from singsym.classes.presence import (
-    REAL_EMPTINESS_SECONDS,
+    QUICK_SECONDS,
     SHORT_SECONDS,
     is_proven_empty,
     points_on,
@@ -170,7 +170,7 @@ def _explored(branch: Branch) -> Explored:
         with Budget(branch.seconds, branch.memory_mb):
             whole = unsplit(branch.equations, branch.feasible.ring)
             system = restricted(branch.admitted, whole)
-            if not points_on(system, whole, 1) and is_proven_empty(system, SHORT_SECONDS, last=False):
+            if not points_on(system, whole, 1) and is_proven_empty(system, SHORT_SECONDS, modular=_hasty()):
                 return Explored()
             parts = patches(branch.equations, branch.admitted.nonzero, branch.feasible.ring)
             chosen = list(representatives([p.generators for p in parts], branch.kept))
@@ -211,7 +211,7 @@ class _Exploring:
         self.following.append(self._part(images).within((), (), patch.generators, {}))
 
     def _search(self, patch: Patch, images: tuple[Reflection, ...], alone: bool) -> None:
-        """The ranks on a patch as it stands; where that is not evident, on its components."""
+        """The ranks on a patch as it stands, where points are known of it."""
         system = restricted(self.branch.admitted, patch)
         if () in system.exclusions:
             return
@@ -222,25 +222,33 @@ class _Exploring:
             except NotEvident as doubt:
                 self._split(patch, doubt.polynomial, images)
             return
+        self._without_points(patch, system, images, alone)
+
+    def _without_points(
+        self, patch: Patch, system: RealSystem, images: tuple[Reflection, ...], alone: bool
+    ) -> None:
+        """A patch of which no point is known: the cheap ways to show that there is none come first."""
         forced = real_consequences(system, system.closed_equations)
         if forced is None:
             return
         smaller = patches((*patch.generators, *forced), system.nonzero, system.ring, thorough=True)
-        if [p.generators for p in smaller] != [patch.generators]:
+        if patch.generators not in [p.generators for p in smaller]:
             for part in smaller:
                 self.patch(part, images, alone=alone and len(smaller) == 1)
             return
         deciding = _deciding_variable(system) if self.branch.splits < MOST_SPLITS else None
-        last = alone and deciding is None
-        if is_proven_empty(system, REAL_EMPTINESS_SECONDS if last else SHORT_SECONDS, last=last):
-            return
         if not alone:
-            self._postpone(patch, images)
-            return
-        if deciding is not None:
-            self.branch = replace(self.branch, splits=self.branch.splits + 1)
-            self._split(patch, deciding, images)
-            return
+            if not is_proven_empty(system, QUICK_SECONDS, modular=False):
+                self._postpone(patch, images)
+        elif deciding is not None:
+            if not is_proven_empty(system, SHORT_SECONDS, modular=_hasty()):
+                self.branch = replace(self.branch, splits=self.branch.splits + 1)
+                self._split(patch, deciding, images)
+        elif not is_proven_empty(system):
+            self._decomposed(patch, system, images)
+
+    def _decomposed(self, patch: Patch, system: RealSystem, images: tuple[Reflection, ...]) -> None:
+        """The ranks on the components of a patch that may have real points."""
         known: tuple[Equations, ...] = ()
         for component in decompose(patch.generators, system.nonzero, ring=system.ring):
             samples = samples_of(component, system)
@@ -282,6 +290,11 @@ class _Exploring:
         branch = self.branch
         all_images = tuple(dict.fromkeys(compose(r, other) for r in branch.images for other in images))
         return replace(branch, images=all_images, elsewhere=(*branch.elsewhere, *self.earlier, *known))
+
+
+def _hasty() -> bool:
+    """Whether an answer that rests on primes will do for the time being."""
+    return engines.proof_patience() == 1
 
 
 def _deciding_variable(system: RealSystem) -> Polynomial | None:
@@ -354,6 +367,7 @@ def _proven(modular: Sequence[tuple[Branch, Explored]], runner: Runner, budget: 
     stage = "strata, proofs over Q"
     empty = [branch for branch, first in modular if first == Explored(certainty=first.certainty)]
     others = [(branch, first) for branch, first in modular if branch not in empty]
+    empty = [replace(branch, splits=0) for branch in empty]
     known: list[Certainty] = []
     for _, part in runner.grow(explore_patiently, empty, attrgetter("following"), stage, budget):
         nothing = part is not None and not part.found and not part.undecided

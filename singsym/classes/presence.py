@@ -23,8 +23,8 @@ EMPTINESS_SECONDS = 10.0
 """So long a proof is waited for that a part has no zero at all."""
 REAL_EMPTINESS_SECONDS = 30.0
 """So long a proof is waited for that it has no real one."""
-SHORT_SECONDS = 5.0
-"""So long either is waited for where there are other ways to go on: more patches, or a task of its own."""
+SHORT_SECONDS, QUICK_SECONDS = 5.0, 1.0
+"""So long either is waited for where a part can be split further, and where it is one of several parts."""
 
 
 def restricted(system: RealSystem, patch: Patch) -> RealSystem:
@@ -50,15 +50,14 @@ def points_on(system: RealSystem, patch: Patch, count: int = 3) -> Points:
 
 
 def is_proven_empty(
-    system: RealSystem, seconds: float = REAL_EMPTINESS_SECONDS, *, last: bool = True
+    system: RealSystem, seconds: float = REAL_EMPTINESS_SECONDS, *, modular: bool = True
 ) -> bool:
     """Whether it is shown in so many seconds that there is no real point.
 
-    last: whether there is no other way to go on.  With patience an answer that rests on primes will only do
-    then, and where there is no better one.
+    modular: whether an answer that rests on primes will do: with patience only where there is no better one.
     """
-    patient = engines.proof_patience() > 1
-    longer = engines.proof_patience() if last else 1.0
+    hasty = engines.proof_patience() == 1
+    longer = engines.proof_patience() if modular else 1.0
     chart = Cartesian.of(system)
 
     def no_complex_point() -> bool:
@@ -73,14 +72,14 @@ def is_proven_empty(
     for proof in (no_complex_point, no_real_point):
         with unnoted() as seen:
             answer = proof()
-        if answer and (not patient or weakest(*seen) == "proven"):
+        if answer and ((modular and hasty) or weakest(*seen) == "proven"):
             note(weakest(*seen))
             return True
         if answer:
             doubtful += seen
-    if doubtful and last:
+    if doubtful and modular:
         note(weakest(*doubtful))
-    return bool(doubtful) and last
+    return bool(doubtful) and modular
 
 
 def samples_of(component: Component, feasible: RealSystem) -> Points | None:

@@ -18,6 +18,7 @@ from singsym.elimination.engines import EngineFailure
 from singsym.elimination.verdict import Certainty
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.circles import unit_circles
+from singsym.varieties.real.bounds import sign_within
 from singsym.varieties.real.box import BoxPoint, boxed_point
 from singsym.varieties.real.points import RealPoint
 from singsym.varieties.real.zerodim import NotZeroDimensional, real_points
@@ -54,8 +55,26 @@ class RealSystem:
 
     @property
     def nonzero(self) -> tuple[Polynomial, ...]:
-        """Single polynomials that do not vanish on any solution."""
-        return (*self.positive, *(group[0] for group in self.exclusions if len(group) == 1))
+        """Single polynomials that do not vanish on any solution.
+
+        >>> R = Ring(("a", "x"))
+        >>> a, x = R.gens
+        >>> RealSystem(R, (), exclusions=((x,),), positive=(a - 1,)).nonzero
+        (a - 1, x, a)
+        """
+        single = (group[0] for group in self.exclusions if len(group) == 1)
+        return tuple(dict.fromkeys((*self.positive, *single, *self._not_at_zero)))
+
+    @property
+    def _not_at_zero(self) -> Iterator[Polynomial]:
+        """Variables of which an inequality in them alone leaves out zero, as the range of a parameter may."""
+        constants = {c.name: (c.low, c.high) for c in self.ring.constants}
+        for p in self.positive:
+            names = set(p.variables) - set(constants)
+            if len(names) == 1:
+                (name,) = names
+                if sign_within(p.substitute({name: self.ring.zero}), constants) < 0:
+                    yield self.ring.gen(name)
 
     @property
     def with_slack(self) -> RealSystem:
