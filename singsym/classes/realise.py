@@ -173,7 +173,8 @@ def _given(piece: Piece, system: RealSystem, elsewhere: tuple[Equations, ...]) -
     """A set given by equations: where their gradients are independent at a point, a manifold near it."""
     dimension = len(system.ring.names) - len(system.closed_equations)
     if dimension <= 0:
-        with suppress(NotZeroDimensional):
+        left = current().remaining()
+        with suppress(NotZeroDimensional, Undecided), current().part(None if left is None else left / 3):
             return _finite(piece, real_points(piece.basis), system, elsewhere)
     codimension = numerical_codimension(system)
     patch = unsplit(system.closed_equations, system.ring)
@@ -194,14 +195,24 @@ def _dependent(piece: Piece, system: RealSystem, patch: Patch) -> tuple[Piece, P
         verdict = Verdict.no(cut.certainty, reason="there is no complex solution")
         return replace(piece, verdict=verdict, dimension=-1), ()
     if cut is not None and cut.point is not None and chart.faithful:
-        witness = find_witness(system, tries=SEARCHES)
+        dimension = cut.dimension - beside
+        near = _unsolved(chart, patch, cut.point)
+        witness = find_witness(system, tries=SEARCHES, dimension=dimension, near=[near])
         if witness is not None:
-            found, points = _positive(piece, (cut.dimension - beside, witness))
+            found, points = _positive(piece, (dimension, witness))
             if cut.certainty == "modular":
                 reason = "its dimension rests on a Groebner basis found modulo primes"
                 found = replace(found, verdict=replace(found.verdict, reason=reason))
             return found, points
     return _positive(piece, real_dimension(system))
+
+
+def _unsolved(chart: Cartesian, patch: Patch, witness: Witness) -> tuple[float, ...]:
+    """A point of a chart in the variables from before, numerically; those in no equation are zero."""
+    values = dict(zip(witness.ring.names, witness.floats, strict=True))
+    found = list(chart.before([values.get(name, 0.0) for name in patch.ring.names]))
+    solved = {patch.ring.index(name): value.evaluate(found) for name, value in patch.solved.items()}
+    return tuple(solved.get(k, x) for k, x in enumerate(found))
 
 
 def _charted(system: RealSystem, patch: Patch) -> tuple[Cartesian, int]:

@@ -8,10 +8,11 @@ Source: singsym's own; the map is a quotient by the reflection (c, s, q) -> (-c,
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
+from math import hypot
 
 from singsym.elimination.budget import Undecided, current
 from singsym.elimination.ideal import Ideal
@@ -79,6 +80,25 @@ class Cartesian:
         for vector in self.vectors:
             parts = vector.all_parts(parts)
         return parts
+
+    def before(self, point: Sequence[float]) -> tuple[float, ...]:
+        """A point of the given system near one of this, numerically; lengths that are left out are positive.
+
+        >>> R = Ring(("c", "s", "q", "w"))
+        >>> c, s, q, w = R.gens
+        >>> leg = RealSystem(R, (c**2 + s**2 - 1, q**2 + w**2 - 1, 2 * s * q + w), exclusions=((q,),))
+        >>> Cartesian.of(leg).before((3.0, 4.0, 0.0, 0.5))
+        (0.6, 0.8, 5.0, 0.5)
+        """
+        found = list(point)
+        for vector in reversed(self.vectors):
+            c, s, k = (self.system.ring.index(name) for name in (*vector.pair, vector.length))
+            if vector.relation is not None:
+                found[k] = hypot(found[c], found[s])
+            if found[k]:
+                found[c], found[s] = found[c] / found[k], found[s] / found[k]
+            found[k] = vector.put.evaluate(found)
+        return tuple(found)
 
     @cached_property
     def _needed(self) -> tuple[Group, ...]:

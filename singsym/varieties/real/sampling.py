@@ -44,8 +44,10 @@ def numerical_points(system: RealSystem, count: int = 3) -> Points:
             if x is None:
                 continue
             point = tuple(map(float, x[: len(ring.names)]))
-            if all(is_off(point, group) for group in system.exclusions) and all(
-                p.evaluate(point) > -1e-9 for p in (*system.positive, *system.nonnegative)
+            if (
+                all(is_off(point, group) for group in system.exclusions)
+                and all(p.evaluate(point) > 0 and is_large(p, (point,)) for p in system.positive)
+                and all(p.evaluate(point) > -1e-9 for p in system.nonnegative)
             ):
                 found.append(point)
             if len(found) == count:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import chain
 from math import prod
 from typing import TYPE_CHECKING
 
@@ -149,11 +150,13 @@ def find_witness(
     seed: int = 0,
     tries: int = 40,
     dimension: int | None = None,
+    near: Sequence[Sequence[float]] = (),
     budget: Budget | None = None,
 ) -> Witness | None:
     """A certified real point of the system, or `None`, which proves nothing.
 
     dimension: that of the equations' complex zero set, where it is known; else a numerical rank stands in.
+    near: points to begin with, about on the zero set.
     Points with small rational coordinates come first.  Raises `BudgetExceeded`.
 
     >>> R = Ring(("x", "y"))
@@ -165,10 +168,13 @@ def find_witness(
     equations = system.closed_equations
     if any(f.is_constant for f in equations):
         return None
-    for sample in samples(system, equations, seed, tries):
+    for sample in chain(_landed(equations, system.ring, near), samples(system, equations, seed, tries)):
         budget.check("the search for a real point")
         for values in frozen_values(system, equations, sample, dimension):
             budget.check("the search for a real point")
+            known = (p.substitute(values) for p in system.positive)
+            if any(p.is_constant and p.constant <= 0 for p in known):
+                continue
             found = _certified(system, equations, values, sample, budget)
             if found is not None:
                 return Witness(found, tuple(values))
@@ -202,6 +208,18 @@ def samples(system: RealSystem, equations: Sequence[Polynomial], seed: int, trie
         # points that are not accurate, near a double root, come after others
         least = 1e-3 if 2 * attempt < tries else 1e-6
         if all(float(np.max(np.abs(g(x)[0]))) > least for g in excluded):
+            yield x
+
+
+def _landed(equations: Sequence[Polynomial], ring: Ring, near: Sequence[Sequence[float]]) -> Iterator[Vector]:
+    """Numerical solutions near some points."""
+    import numpy as np
+
+    from singsym.varieties.real.search import Compiled, gauss_newton
+
+    for point in near:
+        x = gauss_newton(Compiled(equations, ring), np.array(point))
+        if x is not None:
             yield x
 
 
