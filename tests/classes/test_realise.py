@@ -5,12 +5,16 @@ from __future__ import annotations
 from dataclasses import replace
 from math import isclose, pi
 
+import pytest
+
 from singsym.classes.classify import classify
 from singsym.classes.explore import Found
 from singsym.classes.realise import CurveTask, Names, RealTask, count, realise
 from singsym.classes.strata import Stratum
 from singsym.classes.types import Defects
 from singsym.classes.types import SingularityType as T
+from singsym.elimination.budget import Undecided
+from singsym.elimination.ideal import Ideal
 from singsym.mechanism import load
 from singsym.polynomials import Ring
 from singsym.varieties.real.witness import RealSystem
@@ -38,6 +42,26 @@ def test_a_stratum_below_a_known_dimension_is_left() -> None:
     (looked_at,) = realise(replace(task, known=0)).pieces
     assert (seen.dimension, looked_at.dimension) == (1, 1)
     assert (left.dimension, left.at_most, left.verdict.is_undecided) == (None, 1, True)
+
+
+@pytest.mark.engines
+def test_a_dimension_bounded_modulo_a_prime(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where no Groebner basis ends, random hyperplanes bound it: of a curve by 2, but not by 0."""
+
+    class Endless(Ideal):
+        @property
+        def dimension(self) -> int:
+            raise Undecided("takes too long")
+
+    monkeypatch.setattr("singsym.classes.realise.Ideal", Endless)
+    ring = Ring(("x", "y", "z"))
+    x, y, z = ring.gens
+    circle = Found((), Stratum((x**2 + y**2 - 1, z - x * y), Defects(0, 0, 0, 0)))
+    task = RealTask(circle, RealSystem(ring, ()), Names())
+    (bounded,) = realise(replace(task, known=2)).pieces
+    assert (bounded.at_most, bounded.bounded, bounded.dimension) == (2, "modular", None)
+    (seen,) = realise(replace(task, known=0)).pieces
+    assert seen.dimension == 1
 
 
 def test_a_real_curve_of_complex_surfaces_is_not_counted() -> None:
