@@ -34,7 +34,7 @@ class Budget:
     >>> Budget(0).check("a Groebner basis")
     Traceback (most recent call last):
     ...
-    singsym.elimination.budget.BudgetExceeded: the budget of 0 s is used up (a Groebner basis)
+    singsym.elimination.budget.BudgetExceeded: no time is left (a Groebner basis)
     """
 
     __slots__ = ("_token", "cancelled", "deadline", "memory_mb", "seconds")
@@ -60,7 +60,8 @@ class Budget:
         if self.cancelled is not None and self.cancelled():
             raise Cancelled(f"called off{f' ({what})' if what else ''}")
         if self.deadline is not None and time.monotonic() >= self.deadline:
-            raise BudgetExceeded(f"the budget of {self.seconds:g} s is used up{f' ({what})' if what else ''}")
+            spent = f"the budget of {self.seconds:.3g} s is used up" if self.seconds else "no time is left"
+            raise BudgetExceeded(spent + (f" ({what})" if what else ""))
 
     def part(self, seconds: float | None = None, memory_mb: int | None = None) -> Budget:
         """A budget that ends with this one and has no more than so many seconds or megabytes."""

@@ -51,15 +51,14 @@ SMALLEST = {
 WITHOUT_IIM = {1: 5, 2: 5, 3: 4, 4: 5, 5: 4, 6: 4, 7: 3}
 WITH_IIM = {9: 1, 13: 2, 15: 2, 16: 3, 17: 1, 21: 1}
 TABLE_2 = WITHOUT_IIM | WITH_IIM
-DIMENSIONS = {
-    "zlatanov-hybrid-3-2": TABLE_2,
-    "zlatanov-hybrid": {number: dimension + 1 for number, dimension in TABLE_2.items()},
-}
-"""Row 7 of the published results: Table 2 of Zlatanov, Fenton, Benhabib (1998); a symbolic a adds 1."""
+DIMENSIONS = {"zlatanov-hybrid-3-2": TABLE_2}
+"""Row 7 of the published results: Table 2 of Zlatanov, Fenton, Benhabib (1998)."""
 
 FOUND = library.occurring()
-DECIDED = [name for name, found in FOUND.items() if found.complete]
-OPEN = [name for name, found in FOUND.items() if not found.complete]
+LONG = ("zlatanov-hybrid",)
+"""Decided by the command alone, in some eight minutes with two processes: too long for every test run."""
+DECIDED = [name for name, found in FOUND.items() if found.complete and name not in LONG]
+NOT_HERE = [name for name, found in FOUND.items() if name not in DECIDED]
 
 
 def ranks(equation: VelocityEquation, point: np.ndarray) -> Defects | None:
@@ -123,9 +122,11 @@ def test_the_gallery_is_decided(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", OPEN)
-def test_what_is_open_is_said_to_be(name: str, record_property: Callable[[str, object], None]) -> None:
-    """A mechanism whose classes are not all known: within a small budget nothing contradicts the file."""
+@pytest.mark.parametrize("name", NOT_HERE)
+def test_within_a_small_budget_nothing_contradicts_the_file(
+    name: str, record_property: Callable[[str, object], None]
+) -> None:
+    """A mechanism whose classes are not all known, or take long: what is not found is left undecided."""
     result = classify(load(name), limits=Limits(seconds=3, total=6), cache=False)
     record_property("gallery", summary(result))
     assert result.undecided
