@@ -34,7 +34,7 @@ class Budget:
     >>> Budget(0).check("a Groebner basis")
     Traceback (most recent call last):
     ...
-    singsym.elimination.budget.BudgetExceeded: no time is left (a Groebner basis)
+    singsym.elimination.budget.BudgetExceeded: no time is left in the budget (a Groebner basis)
     """
 
     __slots__ = ("_token", "cancelled", "deadline", "memory_mb", "seconds")
@@ -60,7 +60,7 @@ class Budget:
         if self.cancelled is not None and self.cancelled():
             raise Cancelled(f"called off{f' ({what})' if what else ''}")
         if self.deadline is not None and time.monotonic() >= self.deadline:
-            spent = f"the budget of {self.seconds:.3g} s is used up" if self.seconds else "no time is left"
+            spent = f"the budget of {self.seconds:.3g} s is used up" if self.seconds else "no time is left in the budget"
             raise BudgetExceeded(spent + (f" ({what})" if what else ""))
 
     def part(self, seconds: float | None = None, memory_mb: int | None = None) -> Budget:
