@@ -60,7 +60,8 @@ class Budget:
         if self.cancelled is not None and self.cancelled():
             raise Cancelled(f"called off{f' ({what})' if what else ''}")
         if self.deadline is not None and time.monotonic() >= self.deadline:
-            spent = f"the budget of {self.seconds:.3g} s is used up" if self.seconds else "no time is left in the budget"
+            used = f"the budget of {self.seconds:.3g} s is used up"
+            spent = used if self.seconds else "no time is left in the budget"
             raise BudgetExceeded(spent + (f" ({what})" if what else ""))
 
     def part(self, seconds: float | None = None, memory_mb: int | None = None) -> Budget:
