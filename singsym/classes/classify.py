@@ -25,7 +25,7 @@ from singsym.elimination import engines
 from singsym.elimination.budget import Budget, Undecided
 from singsym.elimination.conditions import Conditions, Factor, conditions, polynomial_latex
 from singsym.elimination.ideal import Ideal
-from singsym.elimination.verdict import Verdict, weakest
+from singsym.elimination.verdict import Certainty, Verdict, weakest
 from singsym.kinematics.reduction import reduce
 from singsym.kinematics.velocity import VelocityEquation, velocity_equation
 from singsym.mechanism.model import Mechanism
@@ -300,7 +300,8 @@ class _Work:
         doubts += explored.doubts(candidate.types)
         if present:
             certainty = present[0].verdict.certainty
-            verdict = Verdict.yes(certainty, reason=_reservations(own, doubts))
+            known = explored.certainty_of(candidate.types)
+            verdict = Verdict.yes(certainty, reason=_reservations(own, doubts, known))
             steps: tuple[str, ...] = (found_in(candidate.types),)
         elif doubts:
             verdict = Verdict.undecided("; ".join(dict.fromkeys(doubts)))
@@ -308,8 +309,7 @@ class _Work:
         else:
             ruled_out = [p.verdict.reason for p in own]
             certainty = weakest(*(p.verdict.certainty for p in own))
-            if candidate.types not in explored.evident:
-                certainty = weakest(certainty, explored.certainty)
+            certainty = weakest(certainty, explored.certainty_of(candidate.types))
             reason = "; ".join(dict.fromkeys(ruled_out)) or "no stratum of the four ranks has these types"
             verdict = Verdict.no(certainty, reason=reason)
             steps = (excluded_in(candidate.types, occurring),)
@@ -406,10 +406,12 @@ def _in_doubt(piece: Piece, known: int | None) -> bool:
     return known is None or known < 2 or piece.at_most is None or piece.at_most > known
 
 
-def _reservations(pieces: Iterable[Piece], doubts: Sequence[str]) -> str:
-    """What is not known, or not proven, of a class that occurs."""
+def _reservations(pieces: Iterable[Piece], doubts: Sequence[str], known: Certainty) -> str:
+    """What is not known, or not proven, of a class that occurs; `known`: how it is that there is no more."""
     if doubts:
         return f"there may be more of it: {'; '.join(dict.fromkeys(doubts))}"
+    if known != "proven":
+        return "that there is no more of it rests on random primes"
     if any(p.verdict.is_undecided and p.bounded != "proven" for p in pieces):
         return "that no part of it has a larger dimension rests on random primes"
     return ""

@@ -133,13 +133,20 @@ class Exploration:
     """All strata, and the branches that ended without an answer, with their reasons.
 
     evident: types whose strata are all there, whatever is unexplored; certainty: how the others are known to
-        be all.
+        be all; modular: types for which that rests on primes in any case.
     """
 
     found: tuple[Found, ...]
     unexplored: tuple[tuple[Branch, str], ...]
     evident: tuple[SingularityType, ...] = ()
     certainty: Certainty = "proven"
+    modular: tuple[SingularityType, ...] = ()
+
+    def certainty_of(self, types: SingularityType) -> Certainty:
+        """How it is known that there are no more configurations of these types than were found."""
+        if types in self.evident:
+            return "proven"
+        return weakest(self.certainty, "modular" if types in self.modular else "proven")
 
     def doubts(self, types: SingularityType) -> tuple[str, ...]:
         """Why there may be more configurations of these types than were found."""
@@ -356,27 +363,34 @@ def search(
             modular.append((branch, explored))
         unexplored += [(branch, reason) for reason in explored.undecided]
         found += explored.found
-    return Exploration(tuple(found), tuple(unexplored), evident, _proven(modular, runner, whole))
+    return Exploration(tuple(found), tuple(unexplored), evident, *_proven(modular, runner, whole))
 
 
-def _proven(modular: Sequence[tuple[Branch, Explored]], runner: Runner, budget: Budget) -> Certainty:
+def _proven(
+    modular: Sequence[tuple[Branch, Explored]], runner: Runner, budget: Budget
+) -> tuple[Certainty, tuple[SingularityType, ...]]:
     """How branches that rest on primes are known, after a second look with much time for proofs.
 
-    An empty one may be taken apart in another way, as long as nothing is found in the end.
+    An empty one may be taken apart in another way; strata that come up in it, although there is nothing
+    modulo primes, leave only their own types in doubt, which come second.
     """
     stage = "strata, proofs over Q"
     empty = [branch for branch, first in modular if first == Explored(certainty=first.certainty)]
     others = [(branch, first) for branch, first in modular if branch not in empty]
     empty = [replace(branch, splits=0) for branch in empty]
     known: list[Certainty] = []
+    types: dict[SingularityType, None] = {}
     for _, part in runner.grow(explore_patiently, empty, attrgetter("following"), stage, budget):
-        nothing = part is not None and not part.found and not part.undecided
-        known.append(part.certainty if part is not None and nothing else "modular")
+        if part is None or part.undecided:
+            known.append("modular")
+        else:
+            known.append(part.certainty)
+            types |= dict.fromkeys(f.stratum.defects.types for f in part.found)
     seconds = runner.map_within(explore_patiently, [branch for branch, _ in others], stage, budget)
     for (_, first), second in zip(others, seconds, strict=True):
         same = second is not None and replace(second, certainty=first.certainty) == first
         known.append(second.certainty if second is not None and same else first.certainty)
-    return weakest(*known)
+    return weakest(*known), tuple(types)
 
 
 def _started(root: Branch, singular: SingularLoci) -> tuple[list[Found], list[Branch]]:

@@ -12,10 +12,11 @@ import pytest
 from singsym.classes import classify as module
 from singsym.classes import explore as search_module
 from singsym.classes.classify import classify
-from singsym.classes.explore import Branch, Explored, explore, search, split_product
+from singsym.classes.explore import Branch, Explored, Found, explore, search, split_product
 from singsym.classes.realise import Names, RealTask, realise
 from singsym.classes.result import Classification
-from singsym.classes.strata import RankProblem
+from singsym.classes.strata import RankProblem, Stratum
+from singsym.classes.types import Defects
 from singsym.classes.work import Runner
 from singsym.elimination.verdict import Certainty
 from singsym.mechanism import load
@@ -204,3 +205,13 @@ def test_a_second_look_that_finds_something_else_proves_nothing(monkeypatch: pyt
     ring = Ring(("x",))
     root = Branch(RankProblem({}, 0, 1, 1), RealSystem(ring, ()), ring.gens)
     assert search(root, Runner()).certainty == "modular"
+
+
+def test_what_a_second_look_finds_leaves_its_own_types_in_doubt_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    ring = Ring(("x",))
+    found = Found((), Stratum(ring.gens, Defects(0, 1, 1, 1)))
+    monkeypatch.setattr(search_module, "explore", lambda branch: Explored(certainty="modular"))
+    monkeypatch.setattr(search_module, "explore_patiently", lambda branch: Explored((found,)))
+    explored = search(Branch(RankProblem({}, 0, 1, 1), RealSystem(ring, ()), ring.gens), Runner())
+    assert explored.certainty_of(Defects(0, 1, 1, 1).types) == "modular"
+    assert explored.certainty_of(Defects(1, 1, 1, 1).types) == "proven"

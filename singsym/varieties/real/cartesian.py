@@ -170,11 +170,11 @@ class Cartesian:
             residues = residue_basis(ideal)
             if residues and (ideal.ring.one,) != residues:
                 groups = [group for group in groups if seems_to_contain(residues, group)]
-                return any(map(partial(_contains, ideal), groups))
+                return any(map(partial(_vanish, ideal), groups))
         except Undecided:
             current().check("a proof that there is no complex point")
             return False
-        return ideal.is_unit() or any(map(partial(_contains, ideal), groups))
+        return ideal.is_unit() or any(map(partial(_vanish, ideal), groups))
 
     @property
     def left_out(self) -> int:
@@ -232,6 +232,11 @@ def _nonconstant(polynomials: Group) -> Group:
 
 def _contains(ideal: Ideal, polynomials: Group) -> bool:
     return all(ideal.contains(ideal.ring.convert(p)) for p in polynomials)
+
+
+def _vanish(ideal: Ideal, polynomials: Group) -> bool:
+    """Whether polynomials are zero on all zeros of an ideal: off each of them it has none."""
+    return all(ideal.radical_contains(ideal.ring.convert(p)) for p in polynomials)
 
 
 def _size(equations: Group) -> int:
