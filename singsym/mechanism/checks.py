@@ -49,7 +49,7 @@ def check(mechanism: Mechanism) -> tuple[Problem, ...]:
     if not found:
         # What follows looks names up and puts parameters in, so it needs those to be right.
         found = [*_graph(mechanism), *_shared_points(mechanism), *_inputs(mechanism), *_outputs(mechanism)]
-        found += [*_dimensions(mechanism.resolved), *_exclusions(mechanism)]
+        found += [*_dimensions(mechanism.resolved), *_exclusions(mechanism), *_translating(mechanism)]
         if not found:
             found = [*_axes(mechanism.resolved), *_loops(mechanism.resolved)]
     return tuple(Problem(*f, file=mechanism.origin) for f in found)
@@ -294,6 +294,13 @@ def _inputs(mechanism: Mechanism) -> Iterator[Finding]:
     elif len(mechanism.inputs) != mechanism.n:
         expected = f"{mechanism.n}, the mobility stated"
         yield "inputs", f"{len(mechanism.inputs)} inputs", expected, "change inputs or mobility"
+
+
+def _translating(mechanism: Mechanism) -> Iterator[Finding]:
+    moving = [link.name for link in mechanism.links if link.name != mechanism.ground]
+    for name in mechanism.translating:
+        if name not in moving:
+            yield "translating", repr(name), f"links among {_listed(moving)}", _suggest(name, moving)
 
 
 def _outputs(mechanism: Mechanism) -> Iterator[Finding]:

@@ -28,6 +28,7 @@ MAX_SIZE = 1_000_000
 KEYS = (
     "name", "title", "source", "description", "space", "ground", "formulation", "mobility",
     "inputs", "output", "parameters", "links", "joints", "dh", "limits", "exclusions",
+    "translating",
 )  # fmt: skip
 FORMULATIONS = ("auto", "planar", "spherical", "joint", "natural", "quaternion")
 _PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*\.[ \t]*"""
@@ -165,6 +166,7 @@ def read(data: Mapping[str, Any], origin: str = "") -> tuple[Mechanism, tuple[Pr
         limits=read_limits(top.get("limits", {}), known, reader),
         exclusions=read_exclusions(top.get("exclusions", {}), known, reader),
         mobility=mobility,
+        translating=tuple(reader.names(top.get("translating", []), "translating")),
         formulation=formulation,
         title=words["title"],
         description=words["description"],

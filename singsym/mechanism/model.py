@@ -180,6 +180,8 @@ class Mechanism:
 
     inputs: column labels of the active freedoms (`Joint.columns`).
     mobility: n as stated by the author, or None to take the number of inputs.
+    translating: links that keep the ground's orientation in all configurations to be looked at: of a
+        mechanism with several modes of motion only that one.
     formulation: "auto", "planar", "joint" or "natural", see `kinematics`.
     source: where it is published; origin: the file it was read from.
     """
@@ -195,6 +197,7 @@ class Mechanism:
     limits: tuple[Limit, ...] = ()
     exclusions: tuple[Exclusion, ...] = ()
     mobility: int | None = None
+    translating: tuple[str, ...] = ()
     formulation: str = "auto"
     title: str = ""
     description: str = ""

@@ -13,6 +13,7 @@ source = ""                    # where it is published
 space = "planar"               # planar, spherical or spatial
 ground = "ground"              # the link that stands still
 # formulation = "auto"         # or planar, spherical, joint (serial arms), natural (spatial)
+# translating = ["BC"]         # only the mode in which these links keep their orientation
 
 # Inputs are joints by name; a joint with two or three freedoms by name and freedom, as P.slide.
 inputs = ["A"]

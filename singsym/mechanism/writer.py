@@ -34,6 +34,8 @@ def dumps(mechanism: Mechanism) -> str:
         lines.append(f"formulation = {_quote(mechanism.formulation)}")
     if mechanism.mobility is not None:
         lines.append(f"mobility = {mechanism.mobility}")
+    if mechanism.translating:
+        lines.append(f"translating = {_names(mechanism.translating)}")
     lines.append(f"inputs = {_names(mechanism.inputs)}")
     lines.append(f"output = [{', '.join(_output(o) for o in mechanism.outputs)}]")
     if mechanism.parameters:

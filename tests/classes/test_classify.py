@@ -10,6 +10,7 @@ from singsym.classes.classify import Limits, classify
 from singsym.classes.result import Classification
 from singsym.classes.types import SingularityType, feasible_classes
 from singsym.elimination import engines
+from singsym.elimination.ideal import Ideal
 from singsym.mechanism import JointRate, load
 
 T = SingularityType
@@ -81,6 +82,22 @@ def test_a_component_may_be_singular_everywhere() -> None:
         T.RI | T.IO: 1,
         T.RI | T.RO | T.IIM: 0,
     }
+
+
+def test_a_mode_in_which_a_link_translates() -> None:
+    """With its coupler parallel to the ground a parallelogram never becomes an antiparallelogram.
+
+    Then D C = A B as vectors; the frame of link CD points the other way, from C to D.
+    """
+    parallelogram = load("parallelogram")
+    mode = replace(parallelogram, translating=("BC",))
+    for result in (classify(parallelogram, cache=False), classify(mode, cache=False)):
+        assert {c.singularity_class.name: c.points for c in result.classes if c.verdict.is_yes} == {
+            "RI, RO, IIM": 2
+        }
+    space = classify(mode, cache=False).equation.space
+    c, s, d_c, d_s = (space.ring.gen(n) for n in ("c_A", "s_A", "c_D", "s_D"))
+    assert all(Ideal(space.ring, space.equations).contains(p) for p in (c + d_c, s + d_s))
 
 
 def test_the_output_at_the_input_is_never_transmission() -> None:

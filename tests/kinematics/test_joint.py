@@ -14,6 +14,7 @@ from singsym.kinematics.formulations import joint, place
 from singsym.kinematics.placement import Placement
 from singsym.mechanism.fileformat import load, loads, read
 from singsym.mechanism.model import JointKind
+from singsym.mechanism.problems import MechanismError
 from singsym.minors.determinant import determinant
 from singsym.polynomials import Polynomial, PolynomialMatrix
 
@@ -190,6 +191,19 @@ def test_a_rod_spins_idly_and_is_held_by_its_length() -> None:
     assert len(placement.space.variables) == 4
     assert len(placement.space.equations) == 3
     assert [name for name, _ in placement.idle_spins] == ["B"]
+
+
+def test_a_link_that_translates_has_a_position_only() -> None:
+    mode = load("3upu-tsai")
+    assert mode.translating == ("platform",)
+    names = place(mode).space.variables
+    assert [v for v in names if "platform" in v] == ["x_platform", "y_platform", "z_platform"]
+    assert len(names) == len(place(replace(mode, translating=())).space.variables) - 1
+
+
+def test_only_the_joint_formulation_knows_translating_links() -> None:
+    with pytest.raises(MechanismError, match="natural for a mechanism with translating links"):
+        place(load("3upu-tsai"), "natural")
 
 
 def test_wrong_angles_are_refused() -> None:

@@ -17,7 +17,8 @@ def classified() -> Callable[[Mechanism], Classification]:
     known: dict[str, Classification] = {}
 
     def find(mechanism: Mechanism) -> Classification:
-        key = repr((mechanism.resolved.links, mechanism.joints, mechanism.inputs, mechanism.outputs))
+        m = mechanism.resolved
+        key = repr((m.links, m.joints, m.inputs, m.outputs, m.translating))
         if key not in known:
             known[key] = classify(mechanism, limits=Limits(total=3000), cache=False)
         return known[key]

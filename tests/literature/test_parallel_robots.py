@@ -2,24 +2,26 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
+from math import prod
 
 import numpy as np
 import pytest
 
 from singsym.classes.result import Classification
+from singsym.classes.types import SingularityType
 from singsym.elimination.conditions import conditions
 from singsym.elimination.ideal import Ideal
-from singsym.kinematics.placement import ConfigurationSpace
 from singsym.kinematics.sampling import numerical_matrix, sample_configurations
 from singsym.kinematics.velocity import VelocityEquation, velocity_equation
 from singsym.mechanism import Mechanism, load
 from singsym.minors.determinant import determinant
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.real.zerodim import real_points
+
+Classified = Callable[[Mechanism], Classification]
 
 # a rational rotation about a general axis
 TURNED = {"q0": Fraction(1, 2), "q1": Fraction(1, 2), "q2": Fraction(1, 10), "q3": Fraction(7, 10)}
@@ -118,7 +120,7 @@ def locus_at(name: str, orientation: dict[str, Fraction | int]) -> Polynomial:
     matrix = conditions(equation).matrix("L_I")
     fixed = matrix.map(lambda e: position.convert(e.substitute(orientation)), position)
     found = [p**k for p, k in determinant(fixed).factors() if not _is_square_of_length(p)]
-    return math.prod(found, start=position.one)
+    return prod(found, start=position.one)
 
 
 def _is_square_of_length(p: Polynomial) -> bool:
@@ -151,39 +153,42 @@ def test_planar_stewart_platform_parallel_to_its_base() -> None:
 # -- row 13: 3-UPU ---------------------------------------------------------------------------------------
 
 
-SQRT3 = math.sqrt(3)
-CORNERS = {"B1": (1.0, 0.0), "B2": (-0.5, SQRT3 / 2), "B3": (-0.5, -SQRT3 / 2)}
+def test_constraint_singularity_of_the_3upu() -> None:
+    """Row 13, Di Gregorio, Parenti-Castelli: in translation z (x^2 + y^2 - 4 delta^2) = 0.
 
-
-@pytest.mark.parametrize(
-    ("moved", "singular"),
-    [
-        ((0.3, 0.4, 1.7), False),
-        ((1.0, -1.2, 2.0), False),
-        ((2.5, 0.3, 0.8), False),
-        ((2.0, 0.0, 1.5), True),
-        ((1.2, 1.6, 0.7), True),
-        ((0.0, -2.0, 3.0), True),
-    ],
-)
-def test_constraint_singularity_of_the_3upu(moved: tuple[float, float, float], singular: bool) -> None:
-    """Row 13, Di Gregorio, Parenti-Castelli: in translation mode z (x^2 + y^2 - 4 delta^2) = 0.
-
-    Where the platform has only moved by (x, y, z), L loses rank on that surface alone; delta = rb - rp = 1.
+    One factor of (4) and (5) is that, for all radii with delta = rb - rp, when multiplied with the length of
+    each leg off the tangent at its foot, d_Pi c_Aib; these numbers vanish in conditions of their own.
     """
-    equation = velocity_equation(load("3upu-tsai"))
-    (point,) = sample_configurations(_with_corners(equation.space, moved), 1, seed=3)
-    values = np.linalg.svd(numerical_matrix(equation.L, point), compute_uv=False)
-    assert bool(values[-1] < 1e-7 * values[0]) is singular
+    found = conditions(velocity_equation(load("3upu-tsai").with_parameters(rb=None, rp=None)))
+    space = found.equation.space
+    ring = space.ring
+    x, y, z, rb, rp = (ring.gen(n) for n in ("x_platform", "y_platform", "z_platform", "rb", "rp"))
+    lengths = [ring.gen(f"d_P{i}") * ring.gen(f"c_A{i}b") for i in (1, 2, 3)]
+    expected = z * (x**2 + y**2 - 4 * (rb - rp) ** 2)
+    loops = Ideal(ring, space.equations)
+    for label in ("4", "5"):
+        constraint = [f.polynomial for f in found[label].factors if len(f.polynomial) == 3]
+        assert len(constraint) == 1
+        product = constraint[0] * prod(lengths, start=ring.one)
+        assert loops.contains(4 * product - 3 * expected) or loops.contains(4 * product + 3 * expected)
 
 
-def _with_corners(space: ConfigurationSpace, moved: tuple[float, float, float]) -> ConfigurationSpace:
-    """The configurations whose platform stands parallel to its zero position, at a place."""
-    fixed = []
-    for name, corner in CORNERS.items():
-        place = np.array([*corner, 0.0]) + moved
-        fixed += [p - Fraction(float(x)) for p, x in zip(space.points[name], place, strict=True)]
-    return replace(space, equations=(*space.equations, *fixed))
+@pytest.mark.slow
+def test_classes_of_the_3upu_in_translation(classified: Classified) -> None:
+    """Row 13 by the classes: all IIM of dimension 2 is z = 0, or x^2 + y^2 = 4 delta^2 with delta = 1.
+
+    At z = 0 the legs lie in a plane as well and cannot hold the platform: II; on the cylinder they can.
+    """
+    result = classified(load("3upu-tsai"))
+    surfaces = {c.singularity_class.name: c for c in result.classes if c.dimension == 2}
+    assert set(surfaces) == {"RPM, II, IO", "RI, RO, IIM", "RI, RO, II, IIM"}
+    increased = [c for c in result.classes if SingularityType.IIM in c.types and c.verdict.is_yes]
+    assert increased
+    for witness in (w for c in increased for w in c.witnesses):
+        x, y, z = (float(witness.points[f"M.{k}"]) for k in "xyz")
+        assert z * (x**2 + y**2 - 4) == pytest.approx(0, abs=1e-9)
+    for name, flat in (("RI, RO, IIM", False), ("RI, RO, II, IIM", True)):
+        assert all((abs(float(w.points["M.z"])) < 1e-9) is flat for w in surfaces[name].witnesses)
 
 
 # -- row 14: 3-RPS ---------------------------------------------------------------------------------------

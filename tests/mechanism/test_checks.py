@@ -117,6 +117,14 @@ def test_inputs() -> None:
     assert "'C'" in said(split)
 
 
+def test_translating_links() -> None:
+    assert "translating: found 'BD'; expected links among AB, BC, CD" in said(
+        replace(FOUR, translating=("BD",))
+    )
+    assert "translating: found 'ground'" in said(replace(FOUR, translating=("ground",)))
+    assert check(replace(FOUR, translating=("BC",))) == ()
+
+
 def test_outputs() -> None:
     assert "found 2 output components; expected 1" in said(
         replace(FOUR, outputs=(JointRate("D"), JointRate("B")))

@@ -20,7 +20,7 @@ def place(mechanism: Mechanism, formulation: str = "auto") -> Placement:
     formulation: "planar" (pins as points), "spherical" (axes as unit vectors), "joint" (angles along a tree),
         "natural" (points and unit vectors), "quaternion" (natural, platforms by quaternions), or "auto": the
         mechanism's own wish; else planar and spherical for mechanisms of those spaces with loops, joint
-        otherwise, natural where that does not suit.
+        otherwise and where links only translate, natural where that does not suit.
     Raises `ValueError` for another name, `MechanismError` where the mechanism cannot be placed.
     """
     chosen = mechanism.formulation if formulation == "auto" else formulation
@@ -29,8 +29,13 @@ def place(mechanism: Mechanism, formulation: str = "auto") -> Placement:
         chosen = "joint" if joint.suits(mechanism) else "natural"
         if closed and mechanism.space is not Space.SPATIAL:
             chosen = str(mechanism.space)
+        if mechanism.translating:
+            chosen = "joint"
     if chosen not in FORMULATIONS:
         raise ValueError(f"formulation {chosen!r}: expected auto, {', '.join(FORMULATIONS)}")
+    if mechanism.translating and chosen != "joint":
+        found = f"{chosen} for a mechanism with translating links"
+        raise MechanismError([Problem("formulation", found, "auto or joint", file=mechanism.origin)])
     if chosen in [*Space] and chosen != mechanism.space:
         found, expected = f"{chosen} for a {mechanism.space} mechanism", "auto, joint or natural"
         raise MechanismError([Problem("formulation", found, expected, file=mechanism.origin)])

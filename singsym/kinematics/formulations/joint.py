@@ -7,6 +7,8 @@ no polynomial in cosine, sine and slide vanishes on it.
 
 from __future__ import annotations
 
+import re
+
 from singsym.kinematics.dimensions import dimensions
 from singsym.kinematics.formulations import local
 from singsym.kinematics.formulations.assembly import Assembly, placement
@@ -15,7 +17,7 @@ from singsym.kinematics.formulations.platforms import find_platforms, hang_platf
 from singsym.kinematics.formulations.struts import find_struts, hang_struts
 from singsym.kinematics.formulations.tree import by_branch, grow, plan, spanning_steps
 from singsym.kinematics.placement import Placement
-from singsym.mechanism.model import Mechanism
+from singsym.mechanism.model import Mechanism, Space
 
 _ANGLES = ("auto", "absolute", "relative")
 
@@ -26,9 +28,9 @@ def suits(mechanism: Mechanism) -> bool:
     If not, the natural formulation takes it.
     """
     mechanism = mechanism.resolved
-    mechanism = mechanism.resolved
     geometry = local.Geometry(mechanism)
-    reached = {mechanism.ground, *(child for _, _, child in spanning_steps(mechanism))}
+    steps = spanning_steps(mechanism)
+    reached = {mechanism.ground, *mechanism.translating, *(child for _, _, child in steps)}
     rods = {link for strut in find_struts(mechanism, geometry) for link in strut.links}
     try:
         find_platforms(mechanism, geometry, reached, rods, False)
@@ -54,17 +56,23 @@ def place(mechanism: Mechanism, *, angles: str = "auto", quaternion: bool = Fals
     open_chain = len(mechanism.joints) < len(mechanism.links)
     absolute = angles == "absolute" or (angles == "auto" and not open_chain)
     steps = plan(mechanism, geometry, tree, absolute)
-    reached = {mechanism.ground, *(step.child for step in steps)}
+    reached = {mechanism.ground, *mechanism.translating, *(step.child for step in steps)}
     struts = find_struts(mechanism, geometry)
     rods = {link for strut in struts for link in strut.links}
     platforms = find_platforms(mechanism, geometry, reached, rods, quaternion)
     names = [v for step in by_branch(steps) for v in step.variables]
+    positions = {link: _position(mechanism, link) for link in mechanism.translating}
+    names += [v for position in positions.values() for v in position]
     names += [v for platform in platforms for v in platform.names]
     names += [v for strut in struts for v in strut.names]
     sized = dimensions(mechanism, names)
     algebra = Algebra(sized.ring, sized.number)
     origin = rigid(algebra, algebra.origin, algebra.axes)
-    grown = grow(geometry, algebra, {mechanism.ground: origin}, steps)
+    moved = {
+        link: rigid(algebra, (*algebra.variables(names), *algebra.origin[len(names) :]), algebra.axes)
+        for link, names in positions.items()
+    }
+    grown = grow(geometry, algebra, {mechanism.ground: origin, **moved}, steps)
     assembly = Assembly(mechanism, geometry, algebra, grown.bodies, list(grown.circles), grown.values)
     assembly.circles = grown.circles
     hang_platforms(assembly, platforms, rods)
@@ -76,3 +84,10 @@ def place(mechanism: Mechanism, *, angles: str = "auto", quaternion: bool = Fals
         if joint.name not in used and joint.first in reached and joint.second in reached
     )
     return placement(assembly, sized, "joint")
+
+
+def _position(mechanism: Mechanism, link: str) -> tuple[str, ...]:
+    """Variables for where the frame of a link that only translates has its origin."""
+    size = 2 if mechanism.space is Space.PLANAR else 3
+    stem = re.sub(r"\W", "_", link)
+    return tuple(f"{x}_{stem}" for x in "xyz"[:size])

@@ -67,9 +67,10 @@ def spanning_steps(mechanism: Mechanism) -> list[tuple[Joint, str, str]]:
     """(joint, parent, child), breadth first from the ground and never across a spherical joint.
 
     Breadth first cuts every loop in its middle; of joints that reach a link equally early the one with fewest
-    freedoms is taken.
+    freedoms is taken.  Links that only translate have their own place, from which what is left is reached.
     """
-    reached, level = {mechanism.ground}, [mechanism.ground]
+    reached, level = {mechanism.ground, *mechanism.translating}, [mechanism.ground]
+    later = list(mechanism.translating)
     rank = {joint.name: i for i, joint in enumerate(mechanism.joints)}
     steps: list[tuple[Joint, str, str]] = []
     while level:
@@ -86,6 +87,8 @@ def spanning_steps(mechanism: Mechanism) -> list[tuple[Joint, str, str]]:
                 reached.add(other)
                 level.append(other)
                 steps.append((joint, link, other))
+        if not level:
+            level, later = later, []
     return steps
 
 
