@@ -13,9 +13,11 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from math import inf
 
-from singsym.classes.explore import Branch, Exploration, Found, Loci, SingularLoci, search
+from singsym.classes.explore import Branch, Found
 from singsym.classes.realise import Counted, CurveTask, Names, Realised, RealTask, count, realise
-from singsym.classes.result import Classification, ClassResult, Locus, Piece, SpacePiece
+from singsym.classes.result import Classification, ClassResult, Locus, Piece
+from singsym.classes.search import Exploration, Loci, SingularLoci, search
+from singsym.classes.space import configuration_space
 from singsym.classes.steps import excluded_in, found_in
 from singsym.classes.strata import RankProblem, Stratum
 from singsym.classes.symmetry import reflections
@@ -150,7 +152,7 @@ class _Work:
             self.mechanism,
             self.equation,
             self.conditions.reduction,
-            self._space(pieces, classes),
+            configuration_space(self.mechanism, self.conditions, pieces, classes),
             loci,
             classes,
             tuple(name for name in engines.allowed() if engines.has(name)),
@@ -324,27 +326,6 @@ class _Work:
             steps,
             conditions_latex(present),
         )
-
-    # -- configuration space ---------------------------------------------------------------------------
-
-    def _space(self, pieces: Sequence[Piece], classes: Sequence[ClassResult]) -> tuple[SpacePiece, ...]:
-        increased = [c for c in classes if SingularityType.IIM in c.types]
-        smooth = "undecided"
-        if all(c.verdict.is_no for c in increased):
-            # lemma: rank L = N means independent loop equations, so a manifold
-            smooth = "yes"
-        found = []
-        for piece in pieces:
-            if piece.path:
-                continue
-            defects = piece.defects
-            remark = ""
-            if defects.delta:
-                remark = f"rank L is {defects.delta} below N in every configuration"
-            elif defects.types:
-                remark = f"every configuration is singular: {defects.types}"
-            found.append(SpacePiece(piece.dimension, smooth, defects, piece.verdict, piece.basis, remark))
-        return tuple(found)
 
 
 def _largest(polynomial: Polynomial, pieces: Sequence[Piece]) -> list[Piece]:

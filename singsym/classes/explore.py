@@ -1,16 +1,13 @@
-"""The search for all strata: from the configuration space down, locus by locus.
+"""One branch of the search: a part of the configuration space, taken apart into strata and further branches.
 
-Source: Zlatanov, Fenton, Benhabib (1998), section 3.2; every singular configuration lies on the zero set of
-det L_I or of det L_O (the Proposition of section 2.3), so the search starts with their factors.
+Source: Zlatanov, Fenton, Benhabib (1998), section 3.2; the order of proofs and splits is singsym's own.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from operator import attrgetter
 
 from singsym.classes.patches import Patch, patches, unsplit
 from singsym.classes.presence import (
@@ -23,8 +20,7 @@ from singsym.classes.presence import (
 )
 from singsym.classes.strata import Ground, Least, NotEvident, RankProblem, Stratum, ranked
 from singsym.classes.symmetry import IDENTITY, Reflection, compose, image, keeps, representatives
-from singsym.classes.types import Defects, SingularityType
-from singsym.classes.work import Runner
+from singsym.classes.types import SingularityType
 from singsym.elimination import engines
 from singsym.elimination.budget import Budget, Undecided
 from singsym.elimination.verdict import Certainty, certainties, weakest
@@ -35,9 +31,6 @@ from singsym.varieties.real.consequences import real_consequences
 from singsym.varieties.real.witness import RealSystem
 from singsym.varieties.splitting import irreducible_factors
 
-_T = SingularityType
-_SIMPLE = (_T(0), _T.RI | _T.IO, _T.RO | _T.II)
-"""The types of strata that are known where (4) and (5) are."""
 Equations = tuple[Polynomial, ...]
 MOST_SPLITS = 3
 """So often a part without known points is split by a variable before it is decomposed."""
@@ -128,33 +121,6 @@ class Explored:
         return bool(self.undecided)
 
 
-@dataclass(frozen=True)
-class Exploration:
-    """All strata, and the branches that ended without an answer, with their reasons.
-
-    evident: types whose strata are all there, whatever is unexplored; certainty: how the others are known to
-        be all; modular: types for which that rests on primes in any case.
-    """
-
-    found: tuple[Found, ...]
-    unexplored: tuple[tuple[Branch, str], ...]
-    evident: tuple[SingularityType, ...] = ()
-    certainty: Certainty = "proven"
-    modular: tuple[SingularityType, ...] = ()
-
-    def certainty_of(self, types: SingularityType) -> Certainty:
-        """How it is known that there are no more configurations of these types than were found."""
-        if types in self.evident:
-            return "proven"
-        return weakest(self.certainty, "modular" if types in self.modular else "proven")
-
-    def doubts(self, types: SingularityType) -> tuple[str, ...]:
-        """Why there may be more configurations of these types than were found."""
-        if types in self.evident:
-            return ()
-        return tuple(dict.fromkeys(reason for _, reason in self.unexplored))
-
-
 def explore(branch: Branch) -> Explored:
     """Take one branch apart and find the ranks on each part: the task that workers run.
 
@@ -177,8 +143,10 @@ def _explored(branch: Branch) -> Explored:
         with Budget(branch.seconds, branch.memory_mb):
             whole = unsplit(branch.equations, branch.feasible.ring)
             system = restricted(branch.admitted, whole)
-            if not points_on(system, whole, 1) and is_proven_empty(system, SHORT_SECONDS, modular=_hasty()):
-                return Explored()
+            if not points_on(system, whole, 1):
+                if is_proven_empty(system, SHORT_SECONDS, modular=_hasty()):
+                    return Explored()
+                work.tried = system
             parts = patches(branch.equations, branch.admitted.nonzero, branch.feasible.ring)
             chosen = list(representatives([p.generators for p in parts], branch.kept))
             for k, images in chosen:
@@ -197,6 +165,8 @@ class _Exploring:
     following: list[Branch] = field(default_factory=list)
     undecided: list[str] = field(default_factory=list)
     earlier: list[Equations] = field(default_factory=list)
+    tried: RealSystem | None = None
+    """Not proven empty in a short time."""
 
     def patch(self, patch: Patch, images: tuple[Reflection, ...], *, alone: bool) -> None:
         """Search a patch; from then on its points, and their images, are known to be elsewhere.
@@ -248,7 +218,7 @@ class _Exploring:
             if not is_proven_empty(system, QUICK_SECONDS, modular=False):
                 self._postpone(patch, images)
         elif deciding is not None:
-            if not is_proven_empty(system, SHORT_SECONDS, modular=_hasty()):
+            if system == self.tried or not is_proven_empty(system, SHORT_SECONDS, modular=_hasty()):
                 self.branch = replace(self.branch, splits=self.branch.splits + 1)
                 self._split(patch, deciding, images)
         elif not is_proven_empty(system):
@@ -318,132 +288,6 @@ def _deciding_variable(system: RealSystem) -> Polynomial | None:
         if power and name in circles and ring.gen(name) not in known
     )
     return ring.gen(max(counts, key=lambda name: (counts[name], name))) if counts else None
-
-
-Loci = tuple[Equations, ...]
-"""A closed set as a union: of each tuple, all polynomials vanish."""
-
-
-@dataclass(frozen=True)
-class SingularLoci:
-    """Where the four matrices lose rank, by the alternatives of conditions (4), (5), (iii) and (vi).
-
-    passive, mobility: None where the condition is left as a comparison of ranks.
-    """
-
-    inputs: Loci
-    outputs: Loci
-    passive: Loci | None = None
-    mobility: Loci | None = None
-
-
-def search(
-    root: Branch, runner: Runner, singular: SingularLoci | None = None, budget: Budget | None = None
-) -> Exploration:
-    """All strata of a branch; a branch is searched as soon as the one that it follows from has been.
-
-    singular: where known, the strata that need no search are written down at once, as steps (4)-(6) of the
-        paper do, and only the zeros of (4) or of (5) are searched.
-    budget: of the whole search; what is left when it is used up comes back unexplored.
-    The result does not depend on the runner's executor: branches keep their order.
-    """
-    found: list[Found] = []
-    first: Sequence[Branch] = (root,)
-    if singular is not None:
-        found, first = _started(root, singular)
-    evident = first[0].evident if first else ()
-    whole = budget or Budget()
-    unexplored: list[tuple[Branch, str]] = []
-    modular: list[tuple[Branch, Explored]] = []
-    for branch, explored in runner.grow(explore, first, attrgetter("following"), "strata", whole):
-        if explored is None:
-            unexplored.append((branch, f"the budget of {whole.seconds:g} s for the search is used up"))
-            continue
-        if explored.certainty != "proven":
-            modular.append((branch, explored))
-        unexplored += [(branch, reason) for reason in explored.undecided]
-        found += explored.found
-    return Exploration(tuple(found), tuple(unexplored), evident, *_proven(modular, runner, whole))
-
-
-def _proven(
-    modular: Sequence[tuple[Branch, Explored]], runner: Runner, budget: Budget
-) -> tuple[Certainty, tuple[SingularityType, ...]]:
-    """How branches that rest on primes are known, after a second look with much time for proofs.
-
-    An empty one may be taken apart in another way; strata that come up in it, although there is nothing
-    modulo primes, leave only their own types in doubt, which come second.
-    """
-    stage = "strata, proofs over Q"
-    empty = [branch for branch, first in modular if first == Explored(certainty=first.certainty)]
-    others = [(branch, first) for branch, first in modular if branch not in empty]
-    empty = [replace(branch, splits=0) for branch in empty]
-    known: list[Certainty] = []
-    types: dict[SingularityType, None] = {}
-    for _, part in runner.grow(explore_patiently, empty, attrgetter("following"), stage, budget):
-        if part is None or part.undecided:
-            known.append("modular")
-        else:
-            known.append(part.certainty)
-            types |= dict.fromkeys(f.stratum.defects.types for f in part.found)
-    seconds = runner.map_within(explore_patiently, [branch for branch, _ in others], stage, budget)
-    for (_, first), second in zip(others, seconds, strict=True):
-        same = second is not None and replace(second, certainty=first.certainty) == first
-        known.append(second.certainty if second is not None and same else first.certainty)
-    return weakest(*known), tuple(types)
-
-
-def _started(root: Branch, singular: SingularLoci) -> tuple[list[Found], list[Branch]]:
-    """The strata that need no search, and the branches where the others are."""
-    found = list(_evident_strata(root, singular))
-    evident = tuple(dict.fromkeys((*(part.stratum.defects.types for part in found), *_SIMPLE)))
-    first, loci = min(
-        (("L_O", singular.outputs), ("L_I", singular.inputs)),
-        key=lambda side: sum(len(p) for locus in side[1] for p in locus),
-    )
-    ready = replace(root, first=first, evident=evident)
-    return found, [ready.within(locus, loci[:i], root.equations, {first: 1}) for i, locus in enumerate(loci)]
-
-
-def _evident_strata(root: Branch, singular: SingularLoci) -> Iterator[Found]:
-    """The regular configurations, and the classes without IIM and RPM.
-
-    With k_O = 0 there is neither IIM nor RPM, and the class is (RO, II) by (vii); dually (RI, IO) by (viii).
-    Where both (4) and (5) hold, but neither (iii) nor (vi), it is (RI, RO, IO, II).
-    """
-    inputs, outputs = singular.inputs, singular.outputs
-    regular = Stratum(root.equations, Defects(0, 0, 0, 0), (*inputs, *outputs))
-    yield Found((), regular)
-    for own, other, defects in (
-        (inputs, outputs, Defects(0, 0, 1, 0)),
-        (outputs, inputs, Defects(0, 0, 0, 1)),
-    ):
-        paths = [path for path in own if path not in other]
-        for i, path in enumerate(paths):
-            equations = (*root.equations, *path)
-            yield Found(path, Stratum(equations, defects, other, elsewhere=tuple(paths[:i])))
-    if singular.passive is None or singular.mobility is None:
-        return
-    searched = (*singular.passive, *singular.mobility)
-    paths = [
-        path
-        for path in _intersections(inputs, outputs)
-        if not any(set(locus) <= set(path) for locus in searched)
-    ]
-    for i, path in enumerate(paths):
-        equations = (*root.equations, *path)
-        yield Found(path, Stratum(equations, Defects(0, 0, 1, 1), searched, elsewhere=tuple(paths[:i])))
-
-
-def _intersections(one: Loci, two: Loci) -> list[Equations]:
-    """The common zeros of two unions of loci as a union, without those that lie in others by their paths."""
-    paths = [path for path in one if path in two]
-    for first in one:
-        for second in two:
-            path = tuple(dict.fromkeys((*first, *second)))
-            if not any(set(known) <= set(path) for known in paths):
-                paths.append(path)
-    return paths
 
 
 def split_product(locus: Equations) -> list[Equations]:

@@ -53,8 +53,18 @@ def test_empty_classes_have_a_reason(crank_rocker: Classification) -> None:
 
 def test_no_mobility_means_smooth(crank_rocker: Classification) -> None:
     assert [s.smooth for s in crank_rocker.configuration_space] == ["yes"]
-    shaky = classify(load("parallelogram"), cache=False)
-    assert {s.smooth for s in shaky.configuration_space} == {"undecided"}
+
+
+@pytest.mark.parametrize("name", ["parallelogram", "change-point"])
+def test_modes_that_meet_make_a_space_singular(name: str) -> None:
+    """Textbook: in the flat positions of a foldable four-bar linkage two of its motions meet."""
+    result = classify(load(name), cache=False)
+    assert {s.smooth for s in result.configuration_space} == {"no"}
+
+
+def test_of_a_mode_by_itself_the_ranks_do_not_say_whether_it_is_smooth() -> None:
+    result = classify(replace(load("parallelogram"), translating=("BC",)), cache=False)
+    assert {s.smooth for s in result.configuration_space} == {"undecided"}
 
 
 def test_steps_of_the_procedure(crank_rocker: Classification) -> None:

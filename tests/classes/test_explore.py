@@ -1,4 +1,4 @@
-"""The search for strata: its branches, and the same answer on every executor."""
+"""Branches of the search for strata, and the same answer on every executor."""
 
 from __future__ import annotations
 
@@ -10,15 +10,14 @@ from pathlib import Path
 import pytest
 
 from singsym.classes import classify as module
-from singsym.classes import explore as search_module
+from singsym.classes import explore as explore_module
 from singsym.classes.classify import classify
-from singsym.classes.explore import Branch, Explored, Found, explore, search, split_product
+from singsym.classes.explore import Branch, explore, split_product
 from singsym.classes.realise import Names, RealTask, realise
 from singsym.classes.result import Classification
-from singsym.classes.strata import RankProblem, Stratum
-from singsym.classes.types import Defects
+from singsym.classes.search import search
+from singsym.classes.strata import RankProblem
 from singsym.classes.work import Runner
-from singsym.elimination.verdict import Certainty
 from singsym.mechanism import load
 from singsym.polynomials import PolynomialMatrix, Ring
 from singsym.varieties.real.sampling import numerical_points
@@ -84,10 +83,10 @@ def test_parts_without_points_are_searched_on_their_own(monkeypatch: pytest.Monk
     row = PolynomialMatrix.of(ring, [[x, y]])
     parts = {name: row.select(columns=c) for name, c in (("L_I", [0]), ("L_O", [1]), ("L_p", []))}
     problem = RankProblem({"L": row, **parts}, 0, 1, 1)
-    monkeypatch.setattr(search_module, "is_proven_empty", lambda *_, **__: False)
-    monkeypatch.setattr(search_module, "points_on", lambda *_: ())
+    monkeypatch.setattr(explore_module, "is_proven_empty", lambda *_, **__: False)
+    monkeypatch.setattr(explore_module, "points_on", lambda *_: ())
     monkeypatch.setattr("singsym.classes.presence.numerical_points", lambda *_: ())
-    monkeypatch.setattr(search_module, "real_consequences", lambda *_: [])
+    monkeypatch.setattr(explore_module, "real_consequences", lambda *_: [])
     branch = Branch(problem, RealSystem(ring, ()), (x * y, 2 * z**4 - 3 * x + 5))
     first = explore(branch)
     assert not first.found
@@ -130,7 +129,7 @@ def test_second_run_is_read_from_the_cache(
     for name in ("realise", "count"):
         known = getattr(module, name)
         monkeypatch.setattr(module, name, _named(forbidden, known))
-    monkeypatch.setattr("singsym.classes.explore.explore", _named(forbidden, explore))
+    monkeypatch.setattr("singsym.classes.search.explore", _named(forbidden, explore))
     assert plain(classify(load("change-point"))) == reference
     assert {path: path.stat().st_mtime_ns for path in tmp_path.iterdir()} == stored
 
@@ -180,38 +179,3 @@ def test_limits_leave_configurations_out() -> None:
         for name, result in (("limited", everything), ("unlimited", unlimited))
     }
     assert counts == {"limited": [2], "unlimited": [4]}
-
-
-@pytest.mark.parametrize(("second", "certainty"), [("proven", "proven"), ("modular", "modular")])
-def test_branches_that_rest_on_primes_are_looked_at_again(
-    monkeypatch: pytest.MonkeyPatch, second: Certainty, certainty: Certainty
-) -> None:
-    def first_look(branch: Branch) -> Explored:
-        return Explored(certainty="modular")
-
-    def second_look(branch: Branch) -> Explored:
-        return Explored(certainty=second)
-
-    monkeypatch.setattr(search_module, "explore", first_look)
-    monkeypatch.setattr(search_module, "explore_patiently", second_look)
-    ring = Ring(("x",))
-    root = Branch(RankProblem({}, 0, 1, 1), RealSystem(ring, ()), ring.gens)
-    assert search(root, Runner()).certainty == certainty
-
-
-def test_a_second_look_that_finds_something_else_proves_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(search_module, "explore", lambda branch: Explored(certainty="modular"))
-    monkeypatch.setattr(search_module, "explore_patiently", lambda branch: Explored(undecided=("late",)))
-    ring = Ring(("x",))
-    root = Branch(RankProblem({}, 0, 1, 1), RealSystem(ring, ()), ring.gens)
-    assert search(root, Runner()).certainty == "modular"
-
-
-def test_what_a_second_look_finds_leaves_its_own_types_in_doubt_only(monkeypatch: pytest.MonkeyPatch) -> None:
-    ring = Ring(("x",))
-    found = Found((), Stratum(ring.gens, Defects(0, 1, 1, 1)))
-    monkeypatch.setattr(search_module, "explore", lambda branch: Explored(certainty="modular"))
-    monkeypatch.setattr(search_module, "explore_patiently", lambda branch: Explored((found,)))
-    explored = search(Branch(RankProblem({}, 0, 1, 1), RealSystem(ring, ()), ring.gens), Runner())
-    assert explored.certainty_of(Defects(0, 1, 1, 1).types) == "modular"
-    assert explored.certainty_of(Defects(1, 1, 1, 1).types) == "proven"
