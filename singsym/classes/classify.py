@@ -48,7 +48,7 @@ class Limits:
 
     seconds: float | None = 60.0
     memory_mb: int | None = None
-    total: float | None = 600.0
+    total: float | None = 1800.0
 
     def part(self, seconds: float) -> float:
         """So many seconds, or those of a task where they are fewer."""

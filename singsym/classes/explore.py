@@ -48,7 +48,8 @@ class Branch:
     symmetries: reflections that keep the whole problem; images: those under which this part stands for
         other parts, which are not searched.
     elsewhere: sets that other branches search; their points are not counted here.
-    splits: how often it was split by a variable without knowing a point.
+    splits: how often it was split by a variable without knowing a point; rest: whether it is where the
+        variable does not vanish, which is hardly easier than the whole.
     seconds, memory_mb: the budget of the decomposition.
     """
 
@@ -64,6 +65,7 @@ class Branch:
     images: tuple[Reflection, ...] = (IDENTITY,)
     elsewhere: tuple[Equations, ...] = ()
     splits: int = 0
+    rest: bool = False
     seconds: float | None = None
     memory_mb: int | None = None
 
@@ -91,6 +93,7 @@ class Branch:
             path=path,
             away=(*self.away, *away),
             least=tuple(sorted(known.items())),
+            rest=False,
         )
 
 
@@ -144,7 +147,8 @@ def _explored(branch: Branch) -> Explored:
             whole = unsplit(branch.equations, branch.feasible.ring)
             system = restricted(branch.admitted, whole)
             if not points_on(system, whole, 1):
-                if is_proven_empty(system, SHORT_SECONDS, modular=_hasty()):
+                seconds = QUICK_SECONDS if branch.rest else SHORT_SECONDS
+                if is_proven_empty(system, seconds, modular=_hasty()):
                     return Explored()
                 work.tried = system
             parts = patches(branch.equations, branch.admitted.nonzero, branch.feasible.ring)
@@ -166,7 +170,7 @@ class _Exploring:
     undecided: list[str] = field(default_factory=list)
     earlier: list[Equations] = field(default_factory=list)
     tried: RealSystem | None = None
-    """Not proven empty in a short time."""
+    """What was not proven empty in a short time."""
 
     def patch(self, patch: Patch, images: tuple[Reflection, ...], *, alone: bool) -> None:
         """Search a patch; from then on its points, and their images, are known to be elsewhere.
@@ -260,7 +264,7 @@ class _Exploring:
         for factor in split_product((polynomial,)):
             self.following.append(part.within(factor, taken, patch.generators, {}))
             taken = (*taken, factor)
-        self.following.append(part.within((), taken, patch.generators, {}))
+        self.following.append(replace(part.within((), taken, patch.generators, {}), rest=True))
 
     def _part(self, images: tuple[Reflection, ...], known: tuple[Equations, ...] = ()) -> Branch:
         """The branch with the images of one patch, and with what was looked at before."""

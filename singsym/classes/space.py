@@ -25,7 +25,7 @@ from singsym.elimination.ideal import Ideal
 from singsym.elimination.verdict import unnoted, weakest
 from singsym.mechanism.model import Mechanism
 
-SECONDS = 10.0
+SECONDS = 5.0
 """So long the dimensions of lemma 2 are waited for."""
 
 

@@ -99,8 +99,19 @@ def compose(one: Reflection, two: Reflection) -> Reflection:
 
 
 def image(equations: Iterable[Polynomial], reflection: Reflection) -> tuple[Polynomial, ...]:
-    """The equations of the image of a zero set."""
-    return tuple(p.reflect(reflection) for p in equations)
+    """The equations of the image of a zero set, with leading coefficients as they are.
+
+    >>> from singsym.polynomials import Ring
+    >>> x, y = Ring(("x", "y")).gens
+    >>> image((x * y, x + y), ("x",))
+    (x*y, x - y)
+    """
+    return tuple(_reflected(p, reflection) for p in equations)
+
+
+def _reflected(p: Polynomial, reflection: Reflection) -> Polynomial:
+    changed = p.reflect(reflection)
+    return changed if not p or changed.value.coeffs()[0] == p.value.coeffs()[0] else -changed
 
 
 def keeps(reflection: Reflection, equations: Iterable[Polynomial]) -> bool:

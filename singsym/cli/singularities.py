@@ -135,10 +135,11 @@ def run_solve(chosen: argparse.Namespace) -> int:
 
 
 def _limits(chosen: argparse.Namespace) -> Limits:
-    """The budget for the search, a tenth of it for each of its parts; the defaults without --budget."""
+    """The budget for the search, a tenth of it at most for each part; the defaults without --budget."""
     from singsym.classes.classify import Limits
 
-    return Limits() if chosen.budget is None else Limits(seconds=chosen.budget / 10, total=chosen.budget)
+    usual = Limits()
+    return usual if chosen.budget is None else Limits(usual.part(chosen.budget / 10), total=chosen.budget)
 
 
 def _resumable(chosen: argparse.Namespace) -> None:

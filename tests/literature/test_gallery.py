@@ -95,7 +95,7 @@ def test_the_smallest_mechanism_has_the_smallest_mobility_that_the_class_allows(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", sorted(DECIDED, key=lambda name: name not in DIMENSIONS))
+@pytest.mark.parametrize("name", [pytest.param(n, marks=pytest.mark.xdist_group(n)) for n in DECIDED])
 def test_the_gallery_is_decided(
     classified: Classified, name: str, record_property: Callable[[str, object], None]
 ) -> None:
