@@ -37,16 +37,20 @@ def configuration_space(
 ) -> tuple[SpacePiece, ...]:
     """The pieces of the configuration space that no locus was put on, with their generic defects."""
     smooth = _is_smooth(mechanism, conditions, classes)
+    kept = ", ".join(mechanism.translating) if mechanism else ""
     found = []
     for piece in (p for p in pieces if not p.path):
         defects = piece.defects
-        remark = ""
+        remarks = []
         if defects.delta:
-            remark = f"rank L is {defects.delta} below N in every configuration"
+            remarks.append(f"rank L is {defects.delta} below N in every configuration")
         elif defects.types:
-            remark = f"every configuration is singular: {defects.types}"
+            remarks.append(f"every configuration is singular: {defects.types}")
         elif smooth == "no":
-            remark = "singular exactly where there is IIM"
+            remarks.append("singular exactly where there is IIM")
+        if kept:
+            remarks.append(f"only where these links keep their orientation: {kept}")
+        remark = "; ".join(remarks)
         found.append(SpacePiece(piece.dimension, smooth, defects, piece.verdict, piece.basis, remark))
     return tuple(found)
 
