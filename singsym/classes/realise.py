@@ -40,8 +40,10 @@ SEARCHES = 300
 
 DIMENSION_SECONDS = 20.0
 """So long the dimension of a set that has a certified point is looked for."""
-BOUND_SECONDS, LONG_BOUND_SECONDS = 1.0, 5.0
+BOUND_SECONDS, LONG_BOUND_SECONDS = 2.0, 15.0
 """So long a bound is looked for where only a large dimension matters, and once more where none is found."""
+DIMENSION_SHARE = 1 / 3
+"""Of this time so much is for the dimension itself."""
 
 _BITS = 80
 
@@ -226,7 +228,7 @@ def _bounded(piece: Piece, system: RealSystem, known: int, seconds: float) -> Pi
     chart, beside = _charted(system, unsplit(system.closed_equations, system.ring))
     equations = chart.system.closed_equations
     with certainties() as seen:
-        with suppress(Undecided), Budget(seconds):
+        with suppress(Undecided), Budget(seconds * DIMENSION_SHARE):
             at_most = Ideal(system.ring, equations).dimension - beside
             return replace(piece, at_most=at_most, bounded=weakest(*seen))
         with suppress(Undecided), Budget(seconds):

@@ -18,12 +18,12 @@ _SECONDS = 3.0
 Basis = tuple[Polynomial, ...]
 
 
-def residue_basis(ideal: Ideal) -> Basis | None:
+def residue_basis(ideal: Ideal, seconds: float | None = _SECONDS) -> Basis | None:
     """The Groebner basis modulo a prime; None where there is no engine for it.
 
-    Raises `Undecided` where it takes so long that one over Q need not be tried.
+    Raises `Undecided` where it takes longer, by default so long that one over Q need not be tried.
     """
-    return _basis(ideal.ring, ideal.generators)
+    return _basis(ideal.ring, ideal.generators, seconds)
 
 
 def seems_to_contain(basis: Basis, polynomials: Sequence[Polynomial]) -> bool:
@@ -41,9 +41,9 @@ def seems_to_contain(basis: Basis, polynomials: Sequence[Polynomial]) -> bool:
     return not more or _basis(basis[0].ring, (*basis, *more)) in (basis, None)
 
 
-def _basis(ring: Ring, generators: Sequence[Polynomial]) -> Basis | None:
+def _basis(ring: Ring, generators: Sequence[Polynomial], seconds: float | None = _SECONDS) -> Basis | None:
     task = engines.Task("groebner", ring, tuple(generators), (), _PRIME)
     try:
-        return engines.solve(task, current().part(_SECONDS)).ideals[0]
+        return engines.solve(task, current().part(seconds)).ideals[0]
     except engines.EngineUnavailable:
         return None

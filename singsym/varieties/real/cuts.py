@@ -95,7 +95,7 @@ def seems_at_most(ring: Ring, equations: Sequence[Polynomial], dimension: int) -
         sum((g * random.randint(1, 2**30) for g in free), start=small.one * random.randint(1, 2**30))
         for _ in range(cuts)
     ]
-    if residue_basis(Ideal(small, (*map(small.convert, equations), *planes))) != (small.one,):
+    if residue_basis(Ideal(small, (*map(small.convert, equations), *planes)), None) != (small.one,):
         return False
     note("modular")
     return True
