@@ -190,7 +190,7 @@ class _Work:
         doubtful = [
             i
             for i, part in enumerate(realised)
-            if least[i] <= most and any(_in_doubt(p, known.get(p.defects.types)) for p in part.pieces)
+            if least[i] <= most and any(_open(p, known.get(p.defects.types)) for p in part.pieces)
         ]
         doubtful.sort(key=lambda i: least[i])
         again = [
@@ -385,6 +385,12 @@ def _in_doubt(piece: Piece, known: int | None) -> bool:
     if not piece.verdict.is_undecided and piece.dimension is not None:
         return False
     return known is None or known < 2 or piece.at_most is None or piece.at_most > known
+
+
+def _open(piece: Piece, known: int | None) -> bool:
+    """Whether a longer look may be worth while: also at points that are to be counted."""
+    uncounted = piece.verdict.is_yes and piece.dimension == 0 and piece.points is None
+    return _in_doubt(piece, known) or (uncounted and known == 0)
 
 
 def _reservations(pieces: Iterable[Piece], doubts: Sequence[str], known: Certainty) -> str:
