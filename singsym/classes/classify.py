@@ -300,9 +300,9 @@ class _Work:
         dimension = max((p.dimension for p in present if p.dimension is not None), default=None)
         doubts = [p.verdict.reason for p in own if _in_doubt(p, dimension)]
         doubts += explored.doubts(candidate.types)
+        known = explored.certainty_of(candidate.types)
         if present:
             certainty = present[0].verdict.certainty
-            known = explored.certainty_of(candidate.types)
             verdict = Verdict.yes(certainty, reason=_reservations(own, doubts, known))
             steps: tuple[str, ...] = (found_in(candidate.types),)
         elif doubts:
@@ -310,8 +310,7 @@ class _Work:
             steps = (found_in(candidate.types),)
         else:
             ruled_out = [p.verdict.reason for p in own]
-            certainty = weakest(*(p.verdict.certainty for p in own))
-            certainty = weakest(certainty, explored.certainty_of(candidate.types))
+            certainty = weakest(known, *(p.verdict.certainty for p in own))
             reason = "; ".join(dict.fromkeys(ruled_out)) or "no stratum of the four ranks has these types"
             verdict = Verdict.no(certainty, reason=reason)
             steps = (excluded_in(candidate.types, occurring),)

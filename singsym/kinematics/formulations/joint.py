@@ -69,8 +69,8 @@ def place(mechanism: Mechanism, *, angles: str = "auto", quaternion: bool = Fals
     algebra = Algebra(sized.ring, sized.number)
     origin = rigid(algebra, algebra.origin, algebra.axes)
     moved = {
-        link: rigid(algebra, (*algebra.variables(names), *algebra.origin[len(names) :]), algebra.axes)
-        for link, names in positions.items()
+        link: rigid(algebra, (*algebra.variables(position), *algebra.origin[len(position) :]), algebra.axes)
+        for link, position in positions.items()
     }
     grown = grow(geometry, algebra, {mechanism.ground: origin, **moved}, steps)
     assembly = Assembly(mechanism, geometry, algebra, grown.bodies, list(grown.circles), grown.values)

@@ -165,16 +165,17 @@ class Cartesian:
 
     def _is_off(self, ideal: Ideal) -> bool:
         """Whether an ideal has no zero, or none off some exclusion; first modulo a prime."""
-        groups = [tuple(map(ideal.ring.convert, group)) for group in self.system.exclusions]
+        convert = ideal.ring.convert
+        excluded = [Ideal(ideal.ring, tuple(map(convert, group))) for group in self.system.exclusions]
         try:
             residues = residue_basis(ideal)
             if residues and (ideal.ring.one,) != residues:
-                groups = [group for group in groups if seems_to_contain(residues, group)]
-                return any(map(partial(_vanish, ideal), groups))
+                excluded = [group for group in excluded if seems_to_contain(residues, group.generators)]
+                return any(map(ideal.radical_contains, excluded))
         except Undecided:
             current().check("a proof that there is no complex point")
             return False
-        return ideal.is_unit() or any(map(partial(_vanish, ideal), groups))
+        return ideal.is_unit() or any(map(ideal.radical_contains, excluded))
 
     @property
     def left_out(self) -> int:
@@ -232,11 +233,6 @@ def _nonconstant(polynomials: Group) -> Group:
 
 def _contains(ideal: Ideal, polynomials: Group) -> bool:
     return all(ideal.contains(ideal.ring.convert(p)) for p in polynomials)
-
-
-def _vanish(ideal: Ideal, polynomials: Group) -> bool:
-    """Whether polynomials are zero on all zeros of an ideal: off each of them it has none."""
-    return all(ideal.radical_contains(ideal.ring.convert(p)) for p in polynomials)
 
 
 def _size(equations: Group) -> int:

@@ -107,8 +107,6 @@ def _solve(ring: Ring, system: tuple[Polynomial, ...], budget: Budget) -> Parame
             found = replace(found, certainty="proven")
     elif not known and "flint" in engines.allowed():
         easy, hard = _easy_part(ring, system)
-        if any(p.is_constant for p in easy):
-            return _from_basis(ring, easy, system, check)
         algebra = quotient_algebra_over(Ideal(ring, easy), hard, check) if easy else None
         found = None if algebra is None else _points(algebra, system, check)
     if found is not None:
