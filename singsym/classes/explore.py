@@ -48,8 +48,7 @@ class Branch:
     symmetries: reflections that keep the whole problem; images: those under which this part stands for
         other parts, which are not searched.
     elsewhere: sets that other branches search; their points are not counted here.
-    splits: how often it was split by a variable without knowing a point; rest: whether it is where the
-        variable does not vanish, which is hardly easier than the whole.
+    splits: how often it was split by a variable without knowing a point.
     seconds, memory_mb: the budget of the decomposition.
     """
 
@@ -65,7 +64,6 @@ class Branch:
     images: tuple[Reflection, ...] = (IDENTITY,)
     elsewhere: tuple[Equations, ...] = ()
     splits: int = 0
-    rest: bool = False
     seconds: float | None = None
     memory_mb: int | None = None
 
@@ -93,7 +91,6 @@ class Branch:
             path=path,
             away=(*self.away, *away),
             least=tuple(sorted(known.items())),
-            rest=False,
         )
 
 
@@ -147,8 +144,7 @@ def _explored(branch: Branch) -> Explored:
             whole = unsplit(branch.equations, branch.feasible.ring)
             system = restricted(branch.admitted, whole)
             if not points_on(system, whole, 1):
-                seconds = QUICK_SECONDS if branch.rest else SHORT_SECONDS
-                if is_proven_empty(system, seconds, modular=_hasty()):
+                if is_proven_empty(system, SHORT_SECONDS, modular=_hasty()):
                     return Explored()
                 work.tried = system
             parts = patches(branch.equations, branch.admitted.nonzero, branch.feasible.ring)
@@ -264,7 +260,7 @@ class _Exploring:
         for factor in split_product((polynomial,)):
             self.following.append(part.within(factor, taken, patch.generators, {}))
             taken = (*taken, factor)
-        self.following.append(replace(part.within((), taken, patch.generators, {}), rest=True))
+        self.following.append(part.within((), taken, patch.generators, {}))
 
     def _part(self, images: tuple[Reflection, ...], known: tuple[Equations, ...] = ()) -> Branch:
         """The branch with the images of one patch, and with what was looked at before."""
