@@ -144,7 +144,7 @@ def _explored(branch: Branch) -> Explored:
             whole = unsplit(branch.equations, branch.feasible.ring)
             system = restricted(branch.admitted, whole)
             if not points_on(system, whole, 1):
-                if is_proven_empty(system, SHORT_SECONDS, modular=_hasty()):
+                if _is_soon_empty(system):
                     return Explored()
                 work.tried = system
             parts = patches(branch.equations, branch.admitted.nonzero, branch.feasible.ring)
@@ -218,7 +218,7 @@ class _Exploring:
             if not is_proven_empty(system, QUICK_SECONDS, modular=False):
                 self._postpone(patch, images)
         elif deciding is not None:
-            if system == self.tried or not is_proven_empty(system, SHORT_SECONDS, modular=_hasty()):
+            if system == self.tried or not _is_soon_empty(system):
                 self.branch = replace(self.branch, splits=self.branch.splits + 1)
                 self._split(patch, deciding, images)
         elif not is_proven_empty(system):
@@ -269,9 +269,11 @@ class _Exploring:
         return replace(branch, images=all_images, elsewhere=(*branch.elsewhere, *self.earlier, *known))
 
 
-def _hasty() -> bool:
-    """Whether an answer that rests on primes will do for the time being."""
-    return engines.proof_patience() == 1
+def _is_soon_empty(system: RealSystem) -> bool:
+    """Whether a part that can be split further is proven empty; primes will do unless there is patience."""
+    if engines.proof_patience() == 1:
+        return is_proven_empty(system, SHORT_SECONDS)
+    return is_proven_empty(system, modular=False)
 
 
 def _deciding_variable(system: RealSystem) -> Polynomial | None:
