@@ -17,9 +17,9 @@ from flint import fmpq
 
 from singsym.elimination.budget import current
 from singsym.elimination.substitution import substitute_solved
-from singsym.kinematics.nonzero import divided
 from singsym.polynomials import Polynomial, Ring
 from singsym.polynomials.ranges import fraction, root_above
+from singsym.polynomials.remainders import division
 from singsym.varieties.circles import unit_circles
 from singsym.varieties.splitting import factor_equations, irreducible_factors, linear_substitution
 
@@ -227,7 +227,7 @@ def _names(vector: tuple[Polynomial, Polynomial]) -> tuple[str, ...]:
 def _reduced(p: Polynomial) -> Polynomial:
     """The remainder on division by the minimal polynomials of the ring's constants."""
     names = (constant.name for constant in p.ring.constants)
-    return divided(p, tuple(zip(p.ring.relations, names, strict=True)))
+    return division(tuple(zip(p.ring.relations, names, strict=True))).remainder(p)
 
 
 def _all_reduced(equations: Iterable[Polynomial]) -> tuple[Polynomial, ...]:

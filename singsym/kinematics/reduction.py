@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING
 
 from flint import fmpq, fmpz
 
-from singsym.kinematics.nonzero import Certifier, short_text
+from singsym.kinematics.nonzero import Certifier
 from singsym.polynomials import Polynomial, PolynomialMatrix
 
 if TYPE_CHECKING:
@@ -48,9 +48,9 @@ class Elimination:
     def __str__(self) -> str:
         which = ", ".join(self.columns)
         if len(self.rows) == 1:
-            how = f"by row {self.rows[0]}, pivot {short_text(self.pivot)}"
+            how = f"by row {self.rows[0]}, pivot {self.pivot.short_text()}"
         else:
-            how = f"from rows {', '.join(self.rows)}, sum of squares {short_text(self.pivot)}"
+            how = f"from rows {', '.join(self.rows)}, sum of squares {self.pivot.short_text()}"
         why = "" if self.pivot.is_constant else f": {self.reason}"
         return f"{which} {how}{why}"
 

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import combinations
 
-from singsym.kinematics.nonzero import Certifier, short_text
+from singsym.kinematics.nonzero import Certifier
 from singsym.minors.blocks import block_triangular
 from singsym.minors.determinant import block_determinants, maximal_minors
 from singsym.minors.trigonometry import circle_pairs, trigonometric_factors
@@ -31,7 +31,7 @@ class Unit:
     reason: str
 
     def __str__(self) -> str:
-        return f"{short_text(self.polynomial)}: {self.reason}"
+        return f"{self.polynomial.short_text()}: {self.reason}"
 
 
 @dataclass(frozen=True)

@@ -22,28 +22,13 @@ if TYPE_CHECKING:
     from singsym.kinematics.mobility import Mobility
     from singsym.kinematics.velocity import VelocityEquation
     from singsym.mechanism.model import Joint, Mechanism, Output, Parameter
-    from singsym.polynomials import Polynomial, PolynomialMatrix
+    from singsym.polynomials import PolynomialMatrix
 
 LONGEST = 12
 """Polynomials with more terms are cut, with the number of terms left out."""
 
 WIDEST = 30
 """A matrix with a longer entry is not printed as a grid in the terminal."""
-
-
-def polynomial_text(polynomial: Polynomial, longest: int = LONGEST) -> str:
-    """A polynomial as text, cut after some terms.
-
-    >>> from singsym.polynomials import Ring
-    >>> x, y = Ring(("x", "y")).gens
-    >>> polynomial_text((x + y) ** 3, 2)
-    'x^3 + 3*x^2*y + ... (2 more terms)'
-    """
-    if len(polynomial) <= longest:
-        return str(polynomial)
-    first = polynomial.ring.from_dict(dict(polynomial.terms()[:longest]))
-    return f"{first} + ... ({len(polynomial) - longest} more terms)"
-
 
 _LOCI = ("condition", "factor", "dimension", "components", "points")
 _CLASSES = ("class", "types", "there?", "known by", "dimension", "points", "components", "step")
@@ -76,7 +61,7 @@ def mechanism_page(mechanism: Mechanism, equation: VelocityEquation) -> Page:
     ]
     joints = tuple(_joint_row(j, mechanism) for j in mechanism.joints)
     variables = f"Configuration variables ({space.formulation}): {', '.join(space.variables)}"
-    equations = [f"  {polynomial_text(e)} = 0" for e in loop_equations(equation)]
+    equations = [f"  {e.short_text(LONGEST)} = 0" for e in loop_equations(equation)]
     return (
         "\n".join(head),
         "\n".join(facts),
@@ -165,7 +150,7 @@ def condition_text(condition: Condition) -> str:
     for place, alternative in enumerate(condition.alternatives or ()):
         lead = "  if " if place == 0 else "  or "
         for factor in alternative:
-            shown = polynomial_text(factor.polynomial)
+            shown = factor.polynomial.short_text(LONGEST)
             if factor.name:
                 shown = f"{factor.name.text} = {shown}"
             words = f"  ({factor.words})" if factor.words else ""
@@ -237,7 +222,7 @@ def _space_row(piece: SpacePiece) -> tuple[str, ...]:
 
 
 def _locus_row(locus: Locus) -> tuple[str, ...]:
-    shown = locus.words or polynomial_text(locus.factor, 6)
+    shown = locus.words or locus.factor.short_text(6)
     dimension = "?" if locus.verdict.is_undecided else _dimension(locus.dimension)
     return (f"({locus.condition})", shown, dimension, _count(locus.components), _count(locus.points))
 
@@ -264,7 +249,7 @@ def _class_text(result: ClassResult, whole: Classification) -> str:
     """A class that occurs: its pieces by what vanishes on the way, and one configuration."""
     lines = [f"{result.singularity_class.number} ({result.types})"]
     for group in grouped(result.pieces, whole.loci):
-        said = [w or f"{polynomial_text(p, 6)} = 0" for p, w in zip(group.path, group.words, strict=True)]
+        said = [w or f"{p.short_text(6)} = 0" for p, w in zip(group.path, group.words, strict=True)]
         count = f", {group.points} points" if group.points is not None else ""
         where = " and ".join(said) or "everywhere"
         lines.append(f"  dimension {_dimension(group.dimension)}{count}: {where}")
@@ -313,7 +298,7 @@ def solution_page(name: str, solutions: Iterable[Solution]) -> Page:
         rows = tuple(
             (
                 str(number),
-                ", ".join(f"{polynomial_text(p, 6)} = 0" for p in piece.path) or "everywhere",
+                ", ".join(f"{p.short_text(6)} = 0" for p in piece.path) or "everywhere",
                 _dimension(piece.dimension),
                 _count(piece.points),
                 "?" if piece.verdict.is_undecided else str(piece.verdict.certainty),

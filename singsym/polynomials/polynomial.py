@@ -125,7 +125,8 @@ class Polynomial:
 
     def __eq__(self, other: object) -> bool:
         if isinstance(other, Polynomial):
-            return self.ring == other.ring and bool(self.value == other.value)
+            same = self.ring is other.ring or self.ring == other.ring
+            return same and bool(self.value == other.value)
         if isinstance(other, (int, Fraction, fmpz, fmpq)):
             return bool(self.value == as_fmpq(other))
         return NotImplemented
@@ -296,11 +297,24 @@ class Polynomial:
     def __repr__(self) -> str:
         return str(self.value)
 
+    def short_text(self, longest: int = 8) -> str:
+        """The polynomial as text, cut after `longest` terms, with the number of those left out.
+
+        >>> from singsym.polynomials import Ring
+        >>> x, y = Ring(("x", "y")).gens
+        >>> ((x + y) ** 3).short_text(2)
+        'x^3 + 3*x^2*y + ... (2 more terms)'
+        """
+        if len(self) <= longest:
+            return str(self)
+        first = self.ring.from_dict(dict(self.terms()[:longest]))
+        return f"{first} + ... ({len(self) - longest} more terms)"
+
     def __bool__(self) -> bool:
         return not self.is_zero
 
 
-@lru_cache(maxsize=4096)
+@lru_cache(maxsize=2**15)
 def _factors(polynomial: Polynomial) -> tuple[tuple[Polynomial, int], ...]:
     """See `Polynomial.factors`; kept, because equal polynomials are made again and again."""
     found = [

@@ -76,11 +76,9 @@ class Ring:
     def __repr__(self) -> str:
         return f"Q[{', '.join(self.names)}]"
 
-    def __getstate__(self) -> dict[str, Any]:
-        return {"names": self.names, "order": self.order, "constants": self.constants}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__.update(state)
+    def __reduce__(self) -> tuple[Any, ...]:
+        texts = tuple((c.latex, c.text) for c in self.constants)
+        return _unpickled, (self.names, self.order, self.constants, texts)
 
     # -- FLINT's contexts ------------------------------------------------------------------------
 
@@ -195,3 +193,17 @@ class Ring:
             sum((self.gen(c.name) ** i * k for i, k in enumerate(c.minimal)), start=self.zero)
             for c in self.constants
         )
+
+
+@lru_cache(maxsize=1000)
+def _unpickled(
+    names: tuple[str, ...],
+    order: str,
+    constants: tuple[AlgebraicConstant, ...],
+    texts: tuple[tuple[str, str], ...],
+) -> Ring:
+    """One ring for all tasks of a process: polynomials of the same ring are compared faster.
+
+    texts: how the constants are printed, which is no part of their equality.
+    """
+    return Ring(names, order, constants)

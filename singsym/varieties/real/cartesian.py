@@ -11,15 +11,15 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property, lru_cache, partial
 from math import hypot
 
 from singsym.elimination.budget import Undecided, current
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.residues import residue_basis, seems_to_contain
 from singsym.elimination.verdict import noted_if_true, unnoted
-from singsym.kinematics.nonzero import remainder
 from singsym.polynomials import Polynomial, Ring
+from singsym.polynomials.remainders import remainder
 from singsym.varieties.circles import Pair, circle, unit_circles
 from singsym.varieties.real.sampling import is_off, numerical_points
 from singsym.varieties.real.witness import RealSystem
@@ -329,16 +329,24 @@ class _Vector:
         return p if self.relation is None else remainder(p, self.relation, self.length)
 
     def _changed(self, p: Polynomial, even: bool = False) -> Polynomial:
-        """The polynomial times a power of the length, in the new variables; an even power where asked for."""
-        ring = p.ring
-        k, pair = ring.index(self.length), tuple(map(ring.index, self.pair))
-        degrees = p.degrees
-        if all(degrees[i] <= 0 for i in (k, *pair)):
-            return p
-        p = p.substitute({self.length: self.put})
+        return _in_vector(p, self.pair, self.length, self.put, even)
+
+
+@lru_cache(maxsize=2**15)
+def _in_vector(p: Polynomial, pair: Pair, length: str, put: Polynomial, even: bool) -> Polynomial:
+    """A polynomial times a power of a length, in the variables of a vector; an even power where asked for."""
+    ring = p.ring
+    k, places = ring.index(length), tuple(map(ring.index, pair))
+    degrees = p.degrees
+    if all(degrees[i] <= 0 for i in (k, *places)):
+        return p
+    if degrees[k] > 0 and put != ring.gens[k]:
+        p = p.substitute({length: put})
         if p.is_zero:
             return p
-        powers = {m: int(m[k]) - sum(int(m[i]) for i in pair) for m, _ in p.terms()}
-        shift = -min(powers.values())
-        shift += shift % 2 if even else 0
-        return ring.from_dict({(*m[:k], powers[m] + shift, *m[k + 1 :]): c for m, c in p.terms()})
+    terms = p.terms()
+    powers = [m[k] - sum(m[i] for i in places) for m, _ in terms]
+    shift = -min(powers)
+    shift += shift % 2 if even else 0
+    moved = ((m[:k] + (power + shift,) + m[k + 1 :], c) for (m, c), power in zip(terms, powers, strict=True))
+    return ring.from_dict(dict(moved))
