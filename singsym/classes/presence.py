@@ -62,7 +62,7 @@ def is_proven_empty(
 
     def no_complex_point() -> bool:
         with suppress(Undecided), current().part(min(seconds, EMPTINESS_SECONDS) * longer):
-            return chart.is_empty()
+            return chart.is_empty(QUICK_SECONDS if modular and hasty else None)
         return False
 
     def no_real_point() -> bool:

@@ -17,7 +17,7 @@ from math import hypot
 from singsym.elimination.budget import Undecided, current
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.residues import residue_basis, seems_to_contain
-from singsym.elimination.verdict import noted_if_true, unnoted
+from singsym.elimination.verdict import note, noted_if_true, unnoted
 from singsym.polynomials import Polynomial, Ring
 from singsym.polynomials.remainders import remainder
 from singsym.varieties.circles import Pair, circle, unit_circles
@@ -149,10 +149,11 @@ class Cartesian:
         moved = self.moved(polynomial)
         return any(noted_if_true(partial(_contains, ideal, moved)) for ideal in ideals)
 
-    def is_empty(self) -> bool:
+    def is_empty(self, seconds: float | None = None) -> bool:
         """Whether not even complex points are left; False where that is not seen at once.
 
         A part may be excluded as a whole: all polynomials of an exclusion vanish on it.  Raises `Undecided`.
+        seconds: so long a proof over Q is waited for; then what holds modulo a prime will do.
 
         >>> R = Ring(("x", "y"))
         >>> x, y = R.gens
@@ -160,22 +161,34 @@ class Cartesian:
         True
         """
         return any(p.is_zero for p in self.system.nonzero) or any(
-            noted_if_true(partial(self._is_off, ideal)) for ideal in self._ideals
+            noted_if_true(partial(self._is_off, ideal, seconds)) for ideal in self._ideals
         )
 
-    def _is_off(self, ideal: Ideal) -> bool:
+    def _is_off(self, ideal: Ideal, seconds: float | None) -> bool:
         """Whether an ideal has no zero, or none off some exclusion; first modulo a prime."""
         convert = ideal.ring.convert
         excluded = [Ideal(ideal.ring, tuple(map(convert, group))) for group in self.system.exclusions]
         try:
             residues = residue_basis(ideal)
-            if residues and (ideal.ring.one,) != residues:
-                excluded = [group for group in excluded if seems_to_contain(residues, group.generators)]
-                return any(map(ideal.radical_contains, excluded))
         except Undecided:
             current().check("a proof that there is no complex point")
             return False
-        return ideal.is_unit() or any(map(ideal.radical_contains, excluded))
+        may_be_unit = residues in (None, (ideal.ring.one,))
+        if residues is None:
+            seconds = None
+        elif not may_be_unit:
+            excluded = [group for group in excluded if seems_to_contain(residues, group.generators)]
+        if not may_be_unit and not excluded:
+            return False
+        try:
+            with current().part(seconds):
+                return (may_be_unit and ideal.is_unit()) or any(map(ideal.radical_contains, excluded))
+        except Undecided:
+            current().check("a proof that there is no complex point")
+        if seconds is None:
+            return False
+        note("modular")
+        return True
 
     @property
     def left_out(self) -> int:
@@ -348,5 +361,5 @@ def _in_vector(p: Polynomial, pair: Pair, length: str, put: Polynomial, even: bo
     powers = [m[k] - sum(m[i] for i in places) for m, _ in terms]
     shift = -min(powers)
     shift += shift % 2 if even else 0
-    moved = ((m[:k] + (power + shift,) + m[k + 1 :], c) for (m, c), power in zip(terms, powers, strict=True))
-    return ring.from_dict(dict(moved))
+    moved = {(*m[:k], power + shift, *m[k + 1 :]): c for (m, c), power in zip(terms, powers, strict=True)}
+    return ring.from_dict(moved)

@@ -10,7 +10,7 @@ from singsym.varieties.real.witness import RealSystem
 
 NEAR = 1e-3
 """Smaller values of exclusions with coefficients of size 1 are taken for zero: as at a fourfold root."""
-STARTS = (4, 8, 16, 32)
+STARTS = (4, 56)
 """So many random starts are tried together for numerical points of a set, until there are enough."""
 POLISHING = 15
 """Undamped steps after them."""

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 # damping over the squared norm of the values, and its least over the squared norm of the slopes
 _DAMPING, _LEAST_DAMPING = 1e-2, 1e-12
+# after so many steps the squared norm of the values should be less than so many times what it was
+_PATIENCE, _PROGRESS = 10, 0.9
 # norms of the values: where steps end, and where a few more without damping are worth while
 _REACHED, _NEAR = 1e-12, 1e-4
 
@@ -97,23 +99,31 @@ def approach(system: Compiled, starts: Vector, steps: int = 60) -> list[Vector]:
     """Points near zeros of the system from those starts, one a row, that come near any, in their order.
 
     All starts take their steps together, damped by the squared size of the values: near dependent equations
-    this is as quick as elsewhere.
+    this is as quick as elsewhere.  Those that are there, or get no further, take no more.
     """
     points = np.array(starts)
     values, slopes = system.at(points)
-    for _ in range(steps):
-        sizes = np.sum(values * values, axis=1)
-        if not np.any(sizes > _REACHED**2):
+    sizes = np.sum(values * values, axis=1)
+    before = np.full(len(points), np.inf)
+    moving = np.flatnonzero(sizes > _REACHED**2)
+    for step in range(steps):
+        if step % _PATIENCE == 0:
+            moving = moving[sizes[moving] < _PROGRESS * before[moving]]
+            before = sizes.copy()
+        if not moving.size:
             break
-        gram = slopes @ slopes.transpose(0, 2, 1)
-        damping = np.maximum(_DAMPING * sizes, _LEAST_DAMPING * np.trace(gram, axis1=1, axis2=2))
+        value, slope = values[moving], slopes[moving]
+        turned = slope.transpose(0, 2, 1)
+        gram = slope @ turned
+        damping = np.maximum(_DAMPING * sizes[moving], _LEAST_DAMPING * np.trace(gram, axis1=1, axis2=2))
         gram += (damping + np.finfo(float).tiny)[:, np.newaxis, np.newaxis] * np.eye(system.count)
-        moves = np.linalg.solve(gram, -values[:, :, np.newaxis])
-        changes = (slopes.transpose(0, 2, 1) @ moves)[:, :, 0]
+        changes = (turned @ np.linalg.solve(gram, -value[:, :, np.newaxis]))[:, :, 0]
         lengths = np.linalg.norm(changes, axis=1, keepdims=True)
-        points = points + changes / np.maximum(1.0, lengths)
-        values, slopes = system.at(points)
-    return [x for x, value in zip(points, values, strict=True) if float(np.linalg.norm(value)) < _NEAR]
+        points[moving] += changes / np.maximum(1.0, lengths)
+        values[moving], slopes[moving] = system.at(points[moving])
+        sizes[moving] = np.sum(values[moving] ** 2, axis=1)
+        moving = moving[sizes[moving] > _REACHED**2]
+    return [x for x, size in zip(points, sizes, strict=True) if size < _NEAR**2]
 
 
 def numerical_rank(slope: Vector) -> int:
