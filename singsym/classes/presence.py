@@ -20,7 +20,7 @@ from singsym.varieties.real.witness import RealSystem
 from singsym.varieties.real.zerodim import real_points
 
 EMPTINESS_SECONDS = 10.0
-"""So long a proof is waited for that a part has no zero at all."""
+"""So long a proof is waited for that a part has no zero at all, in a first look."""
 REAL_EMPTINESS_SECONDS = 30.0
 """So long a proof is waited for that it has no real one."""
 SHORT_SECONDS, QUICK_SECONDS = 5.0, 1.0
@@ -61,7 +61,8 @@ def is_proven_empty(
     chart = Cartesian.of(system)
 
     def no_complex_point() -> bool:
-        with suppress(Undecided), current().part(min(seconds, EMPTINESS_SECONDS) * longer):
+        most = min(seconds, EMPTINESS_SECONDS) if hasty else seconds
+        with suppress(Undecided), current().part(most * longer):
             return chart.is_empty(QUICK_SECONDS if modular and hasty else None)
         return False
 

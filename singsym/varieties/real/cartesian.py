@@ -15,9 +15,10 @@ from functools import cached_property, lru_cache, partial
 from math import hypot
 
 from singsym.elimination.budget import Undecided, current
+from singsym.elimination.eliminate import without_zeros_of
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.residues import residue_basis, seems_to_contain
-from singsym.elimination.verdict import note, noted_if_true, unnoted
+from singsym.elimination.verdict import note, noted_if_true, unnoted, weakest
 from singsym.polynomials import Polynomial, Ring
 from singsym.polynomials.remainders import remainder
 from singsym.varieties.circles import Pair, circle, unit_circles
@@ -167,7 +168,7 @@ class Cartesian:
     def _is_off(self, ideal: Ideal, seconds: float | None) -> bool:
         """Whether an ideal has no zero, or none off some exclusion; first modulo a prime."""
         convert = ideal.ring.convert
-        excluded = [Ideal(ideal.ring, tuple(map(convert, group))) for group in self.system.exclusions]
+        excluded = [tuple(map(convert, group)) for group in self.system.exclusions]
         try:
             residues = residue_basis(ideal)
         except Undecided:
@@ -177,12 +178,12 @@ class Cartesian:
         if residues is None:
             seconds = None
         elif not may_be_unit:
-            excluded = [group for group in excluded if seems_to_contain(residues, group.generators)]
+            excluded = [group for group in excluded if seems_to_contain(residues, group)]
         if not may_be_unit and not excluded:
             return False
         try:
             with current().part(seconds):
-                return (may_be_unit and ideal.is_unit()) or any(map(ideal.radical_contains, excluded))
+                return (may_be_unit and ideal.is_unit()) or any(map(partial(_vanish_on, ideal), excluded))
         except Undecided:
             current().check("a proof that there is no complex point")
         if seconds is None:
@@ -246,6 +247,23 @@ def _nonconstant(polynomials: Group) -> Group:
 
 def _contains(ideal: Ideal, polynomials: Group) -> bool:
     return all(ideal.contains(ideal.ring.convert(p)) for p in polynomials)
+
+
+def _vanish_on(ideal: Ideal, polynomials: Group) -> bool:
+    """Whether polynomials vanish on all zeros: members of the ideal, or 1 = t p without a solution.
+
+    Half of the time is for the first way, which takes one Groebner basis over Q for all.
+    """
+    left = current().remaining()
+    known = False
+    with suppress(Undecided), current().part(None if left is None else left / 2), unnoted() as seen:
+        ideal.groebner_basis()
+        known = weakest(*seen) == "proven"
+    current().check("a proof that polynomials vanish")
+    return all(
+        (known and ideal.contains(p)) or Ideal(*without_zeros_of(ideal.ring, ideal.generators, p)).is_unit()
+        for p in polynomials
+    )
 
 
 def _size(equations: Group) -> int:
