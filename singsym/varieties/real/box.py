@@ -66,10 +66,16 @@ class BoxPoint:
         """The same point in a box of radius 2^-bits; raises `Undecided` where it cannot be had."""
         if bits <= self.bits:
             return self
-        finer = _sharpened(self.ring, self.equations, self.unknowns, self.middles, bits)
+        if bits not in self._finer:
+            self._finer[bits] = _sharpened(self.ring, self.equations, self.unknowns, self.middles, bits)
+        finer = self._finer[bits]
         if finer is None:
             raise Undecided(f"the Krawczyk test fails at {bits} bits")
         return finer
+
+    @cached_property
+    def _finer(self) -> dict[int, BoxPoint | None]:
+        return {}
 
     @property
     def radius(self) -> float:
@@ -139,8 +145,10 @@ def _sharpened(
     derivatives = jacobian(equations, unknowns)
     with at_precision(bits + 64):
         point = [ball(m) for m in middles]
+        # the next step would be shorter than the square of this one, up to a factor
+        least = arb(2) ** (-(bits // 2) - 16)
         for _ in range(bits.bit_length() + 8):
-            slopes = arb_mat([[evaluate(d, point) for d in row] for row in derivatives])
+            slopes = arb_mat([[evaluate(d, point) if d else arb(0) for d in row] for row in derivatives])
             values = arb_mat([[evaluate(f, point)] for f in equations])
             try:
                 step = slopes.solve(values)
@@ -148,6 +156,8 @@ def _sharpened(
                 return None
             for i, k in enumerate(places):
                 point[k] = arb((point[k] - step[i, 0]).mid())
+            if all(abs(step[i, 0]) < least for i in range(len(places))):
+                break
         radius = Fraction(1, 2**bits)
         if krawczyk(equations, unknowns, point, radius) is None:
             return None
