@@ -110,6 +110,9 @@ def test_the_gallery_is_decided(
     assert tuple(c.singularity_class.number for c in found) == FOUND[name].numbers
     assert all(c.verdict.certainty in ("proven", "certified") for c in found)
     assert {c.singularity_class.number: c.dimension for c in found} == DIMENSIONS.get(name, ANY)
+    if name in DIMENSIONS:
+        assert all(c.verdict.certainty == "proven" for c in result.classes if c.verdict.is_no)
+        assert not any("may be more" in c.verdict.reason for c in found)
     at_witness(result)
     declared = {c.types for c in found}
     for point in sample_configurations(result.equation.space, 40, seed=11, tries=120):
