@@ -11,6 +11,7 @@ from functools import cached_property
 
 from singsym.classes.patches import Patch, patches, unsplit
 from singsym.classes.presence import (
+    PATIENT_SECONDS,
     QUICK_SECONDS,
     SHORT_SECONDS,
     is_proven_empty,
@@ -146,7 +147,7 @@ def _explored(branch: Branch) -> Explored:
             if not points_on(system, whole, 1):
                 if _is_soon_empty(system):
                     return Explored()
-                work.tried = system
+                work.tried = True
             parts = patches(branch.equations, branch.admitted.nonzero, branch.feasible.ring)
             chosen = list(representatives([p.generators for p in parts], branch.kept))
             for k, images in chosen:
@@ -165,8 +166,8 @@ class _Exploring:
     following: list[Branch] = field(default_factory=list)
     undecided: list[str] = field(default_factory=list)
     earlier: list[Equations] = field(default_factory=list)
-    tried: RealSystem | None = None
-    """What was not proven empty in a short time."""
+    tried: bool = False
+    """Whether all of it was not proven empty in a short time."""
 
     def patch(self, patch: Patch, images: tuple[Reflection, ...], *, alone: bool) -> None:
         """Search a patch; from then on its points, and their images, are known to be elsewhere.
@@ -218,7 +219,7 @@ class _Exploring:
             if not is_proven_empty(system, QUICK_SECONDS, modular=False):
                 self._postpone(patch, images)
         elif deciding is not None:
-            if system == self.tried or not _is_soon_empty(system):
+            if self.tried or not _is_soon_empty(system):
                 self.branch = replace(self.branch, splits=self.branch.splits + 1)
                 self._split(patch, deciding, images)
         elif not is_proven_empty(system):
@@ -273,7 +274,7 @@ def _is_soon_empty(system: RealSystem) -> bool:
     """Whether a part that can be split further is proven empty; primes will do unless there is patience."""
     if engines.proof_patience() == 1:
         return is_proven_empty(system, SHORT_SECONDS)
-    return is_proven_empty(system, modular=False)
+    return is_proven_empty(system, PATIENT_SECONDS, modular=False)
 
 
 def _deciding_variable(system: RealSystem) -> Polynomial | None:

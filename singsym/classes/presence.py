@@ -23,8 +23,9 @@ EMPTINESS_SECONDS = 10.0
 """So long a proof is waited for that a part has no zero at all, in a first look."""
 REAL_EMPTINESS_SECONDS = 30.0
 """So long a proof is waited for that it has no real one."""
-SHORT_SECONDS, QUICK_SECONDS = 5.0, 1.0
-"""So long either is waited for where a part can be split further, and where it is one of several parts."""
+SHORT_SECONDS, PATIENT_SECONDS, QUICK_SECONDS = 5.0, 20.0, 1.0
+"""So long either is waited for where a part can be split further, in a first look and in a patient one, and
+where it is one of several parts."""
 
 
 def restricted(system: RealSystem, patch: Patch) -> RealSystem:

@@ -20,6 +20,8 @@ from singsym.elimination.verdict import Certainty, weakest
 _T = SingularityType
 _SIMPLE = (_T(0), _T.RI | _T.IO, _T.RO | _T.II)
 """The types of strata that are known where (4) and (5) are."""
+_PATIENCE = 2
+"""So many times as long a part has in a second look."""
 
 
 @dataclass(frozen=True)
@@ -106,7 +108,7 @@ def _proven(
     stage = "strata, proofs over Q"
     empty = [branch for branch, first in modular if first == Explored(certainty=first.certainty)]
     others = [(branch, first) for branch, first in modular if branch not in empty]
-    empty = [replace(branch, splits=0) for branch in empty]
+    empty = [replace(branch, splits=0, seconds=_longer(branch.seconds)) for branch in empty]
     known: list[Certainty] = []
     types: dict[SingularityType, None] = {}
     for _, part in runner.grow(explore_patiently, empty, attrgetter("following"), stage, budget):
@@ -120,6 +122,10 @@ def _proven(
         same = second is not None and replace(second, certainty=first.certainty) == first
         known.append(second.certainty if second is not None and same else first.certainty)
     return weakest(*known), tuple(types)
+
+
+def _longer(seconds: float | None) -> float | None:
+    return None if seconds is None else _PATIENCE * seconds
 
 
 def _started(root: Branch, singular: SingularLoci) -> tuple[list[Found], list[Branch]]:
