@@ -18,7 +18,7 @@ from singsym.polynomials import Polynomial
 LONGEST_SUM = 40
 """The sign of longer sums is not looked for."""
 
-LONGEST_ROOT = 10
+LONGEST_ROOT = 3
 """Nor are the factors of the squares of longer polynomials."""
 
 
