@@ -11,9 +11,9 @@ from concurrent.futures import Executor
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import inf
 
 from singsym.classes.explore import Branch, Found
+from singsym.classes.extent import EMPTY, Extent, union
 from singsym.classes.realise import Counted, CurveTask, Names, Realised, RealTask, count, realise
 from singsym.classes.result import Classification, ClassResult, Locus, Piece
 from singsym.classes.search import Exploration, Loci, SingularLoci, search
@@ -24,9 +24,8 @@ from singsym.classes.symmetry import reflections
 from singsym.classes.types import Defects, SingularityClass, SingularityType, feasible_classes
 from singsym.classes.work import Cache, Runner, cache_folder, processes
 from singsym.elimination import engines
-from singsym.elimination.budget import Budget, Undecided
+from singsym.elimination.budget import Budget
 from singsym.elimination.conditions import Conditions, Factor, conditions, polynomial_latex
-from singsym.elimination.ideal import Ideal
 from singsym.elimination.verdict import Certainty, Verdict, weakest
 from singsym.kinematics.reduction import reduce
 from singsym.kinematics.velocity import VelocityEquation, velocity_equation
@@ -34,9 +33,10 @@ from singsym.mechanism.model import Mechanism
 from singsym.polynomials import Polynomial
 from singsym.varieties.real.witness import RealSystem
 
-MEMBERSHIP_SECONDS = 5.0
-FIRST_SECONDS, SECOND_SECONDS = 0.5, 2.0
+FIRST_SECONDS, SECOND_SECONDS = 1.0, 5.0
 """So long each stratum is looked at before it is known whether more time is worth while."""
+BOUND_SECONDS = 30.0
+"""So long one is looked at last of which only a larger dimension would matter."""
 
 
 @dataclass(frozen=True)
@@ -145,9 +145,9 @@ class _Work:
             memory_mb=self.limits.memory_mb,
         )
         explored = search(root, self.runner, self._singular_loci(), Budget(self.limits.total))
-        pieces = self._pieces(explored.found)
-        loci = self._loci(explored, pieces)
-        classes = self._classes(explored, pieces, loci)
+        pieces = self._with_components(self._pieces(explored.found))
+        loci = self._loci()
+        classes = self._classes(explored, pieces)
         return Classification(
             self.mechanism,
             self.equation,
@@ -159,43 +159,49 @@ class _Work:
             time.monotonic() - started,
         )
 
-    def _pieces(self, found: Sequence[Found]) -> list[Piece]:
+    def _pieces(self, found: Sequence[Found]) -> list[Realised]:
         """The real pieces of all strata; only what may change the answer for its class gets much time.
 
-        After a first look at all, those in doubt get a second one; a last one only those whose class is not
-        known to occur, or is known as a curve or points, which are to be counted.
+        After a first look at all, those in doubt get a second and a last one, which is short where only a
+        dimension larger than that known of the class would matter.
         """
         limits = self.limits
-        tasks = [RealTask(f, self.feasible, self.names, None, limits.memory_mb) for f in found]
+        tasks = [self._task(f, f.stratum.defects.delta) for f in found]
         first = [replace(task, seconds=limits.part(FIRST_SECONDS)) for task in tasks]
         realised = self.runner.map(realise, first, "real points")
         self._look_again(tasks, realised, limits.part(SECOND_SECONDS), "real points, second look")
-        self._look_again(tasks, realised, limits.seconds, "real points, at length", most=1)
-        return [piece for part in realised for piece in part.pieces]
+        self._look_again(tasks, realised, limits.seconds, "real points, at length")
+        return realised
+
+    def _task(self, found: Found, delta: int | None) -> RealTask:
+        """A stratum to be realised; delta: that of its configurations, where it is known.
+
+        Lemma: a configuration that moves along a set of dimension d has as many independent motions, which
+        are n + delta at most, as every motion of the links moves a joint; and parameters may vary.
+        """
+        most = None
+        if self.mechanism is not None and delta is not None:
+            most = self.equation.n + delta + len(self.equation.space.parameters)
+        return RealTask(found, self.feasible, self.names, self.limits.seconds, self.limits.memory_mb, most)
 
     def _look_again(
-        self,
-        tasks: Sequence[RealTask],
-        realised: list[Realised],
-        seconds: float | None,
-        stage: str,
-        most: float = inf,
+        self, tasks: Sequence[RealTask], realised: list[Realised], seconds: float | None, stage: str
     ) -> None:
-        """Realise strata in doubt once more, those of classes of unknown or small dimension first.
-
-        most: the largest known dimension of the classes of strata that are looked at.
-        """
+        """Realise strata in doubt once more, those of classes of unknown or small dimension first."""
         known = _dimensions(piece for part in realised for piece in part.pieces)
         least = [min(known.get(p.defects.types, 0) for p in part.pieces) for part in realised]
         doubtful = [
             i
             for i, part in enumerate(realised)
-            if least[i] <= most and any(_open(p, known.get(p.defects.types)) for p in part.pieces)
+            if any(_open(p, known.get(p.defects.types)) for p in part.pieces)
         ]
         doubtful.sort(key=lambda i: least[i])
-        again = [
-            replace(tasks[i], seconds=seconds, known=least[i] if least[i] > 1 else None) for i in doubtful
-        ]
+        again = []
+        for i in doubtful:
+            task = replace(tasks[i], seconds=seconds)
+            if least[i] > 1 and not any(p.verdict.is_yes for p in realised[i].pieces):
+                task = replace(task, seconds=min(seconds or BOUND_SECONDS, BOUND_SECONDS), known=least[i])
+            again.append(task)
         for i, part in zip(doubtful, self.runner.map(realise, again, stage), strict=True):
             realised[i] = part
 
@@ -213,65 +219,55 @@ class _Work:
 
     # -- loci ----------------------------------------------------------------------------------------
 
-    def _loci(self, explored: Exploration, pieces: Sequence[Piece]) -> tuple[Locus, ...]:
+    def _loci(self) -> tuple[Locus, ...]:
+        """The real zeros of each factor of (4) and (5) on the configuration space, whatever their class."""
         factors = [(label, factor) for label in ("4", "5") for factor in self.conditions[label].factors]
-        if self.equation.n == 1:
-            whole = self.runner.map(realise, [self._whole(f) for _, f in factors], "loci")
-            return tuple(
-                self._finite_locus(label, f, found.pieces[0])
-                for (label, f), found in zip(factors, whole, strict=True)
-            )
-        loci = [self._locus(label, factor, explored, pieces) for label, factor in factors]
-        curves = [i for i, locus in enumerate(loci) if locus.dimension == 1]
-        equations = self.equation.space.equations
-        tasks = [
-            CurveTask((*equations, loci[i].factor), self.limits.seconds, self.limits.memory_mb)
-            for i in curves
-        ]
-        if self.equation.space.nonnegative or self.equation.space.positive:
-            tasks, curves = [], []
-        for i, counted in zip(curves, self.runner.map(count, tasks, "curves"), strict=True):
-            loci[i] = _with_components(loci[i], counted)
-        return tuple(loci)
+        tasks = [self._task(self._whole(factor), None) for _, factor in factors]
+        whole = self.runner.map(realise, tasks, "loci")
+        curves = [i for i, found in enumerate(whole) if found.pieces[0].dimension == 1]
+        counted = dict(zip(curves, self._count([whole[i].pieces[0] for i in curves]), strict=True))
+        return tuple(
+            _locus(label, factor, found.pieces[0], counted.get(i))
+            for i, ((label, factor), found) in enumerate(zip(factors, whole, strict=True))
+        )
 
-    def _whole(self, factor: Factor) -> RealTask:
-        """All real zeros of a factor, whatever their class."""
+    def _whole(self, factor: Factor) -> Found:
         equations = (*self.equation.space.equations, factor.polynomial)
-        found = Found((factor.polynomial,), Stratum(equations, Defects(0, 0, 0, 0)))
-        return RealTask(found, self.feasible, self.names, self.limits.seconds, self.limits.memory_mb)
+        return Found((factor.polynomial,), Stratum(equations, Defects(0, 0, 0, 0)))
 
-    def _finite_locus(self, label: str, factor: Factor, piece: Piece) -> Locus:
-        polynomial, points = factor.polynomial, piece.points
-        return Locus(
-            label, polynomial, factor.words, factor.latex(), piece.verdict, piece.dimension, points, points
-        )
-
-    def _locus(self, label: str, factor: Factor, explored: Exploration, pieces: Sequence[Piece]) -> Locus:
-        """What the pieces on which this factor vanishes say of its zero set."""
-        inside = _largest(factor.polynomial, pieces)
-        doubts = [reason for branch, reason in explored.unexplored if factor.polynomial in branch.path]
-        doubts += [p.verdict.reason for p in pieces if factor.polynomial in p.path and p.verdict.is_undecided]
-        dimension = max((p.dimension for p in inside if p.dimension is not None), default=-1)
-        verdict = Verdict.yes() if dimension >= 0 else Verdict.no(reason="no real point")
-        if doubts and dimension < self.equation.n - 1:
-            verdict = Verdict.undecided("; ".join(dict.fromkeys(doubts)))
-        points = _counted(inside) if dimension == 0 else None
-        return Locus(
-            label,
-            factor.polynomial,
-            factor.words,
-            factor.latex(),
-            verdict,
-            None if verdict.is_undecided else dimension,
-            points,
-            points,
-        )
+    def _count(self, pieces: Sequence[Piece]) -> list[Counted]:
+        """The connected components of curves, closed up."""
+        space, limits = self.equation.space, self.limits
+        if space.nonnegative or space.positive:
+            return [Counted(None, "components are not counted within inequalities")] * len(pieces)
+        tasks = [
+            CurveTask(p.basis, (*space.exclusions, *p.exclusions), limits.seconds, limits.memory_mb)
+            for p in pieces
+        ]
+        return self.runner.map(count, tasks, "curves")
 
     # -- classes -------------------------------------------------------------------------------------
 
-    def _classes(
-        self, explored: Exploration, pieces: Sequence[Piece], loci: Sequence[Locus]
-    ) -> tuple[ClassResult, ...]:
+    def _with_components(self, realised: Sequence[Realised]) -> list[Piece]:
+        """All pieces; the curves of classes that are curves with their numbers of components."""
+        known = _dimensions(piece for part in realised for piece in part.pieces)
+        curves = [
+            i
+            for i, part in enumerate(realised)
+            if part.pieces and part.pieces[0].dimension == 1 and known[part.pieces[0].defects.types] == 1
+        ]
+        # images have as many components
+        counted = dict(zip(curves, self._count([realised[i].pieces[0] for i in curves]), strict=True))
+        pieces: list[Piece] = []
+        for i, part in enumerate(realised):
+            number = counted.get(i)
+            for piece in part.pieces:
+                if number is not None:
+                    piece = replace(piece, components=number.components, uncounted=number.reason)
+                pieces.append(piece)
+        return pieces
+
+    def _classes(self, explored: Exploration, pieces: Sequence[Piece]) -> tuple[ClassResult, ...]:
         occurring = {p.defects.types for p in pieces if p.verdict.is_yes}
         possible = set(feasible_classes(self.equation.n))
         results = []
@@ -279,140 +275,118 @@ class _Work:
             if candidate not in possible:
                 reason = f"impossible for n = {self.equation.n}, by the inequalities of the four ranks"
                 results.append(
-                    ClassResult(candidate, Verdict.no(reason=reason), (), None, None, None, (), "")
+                    ClassResult(candidate, Verdict.no(reason=reason), (), EMPTY, None, None, (), "")
                 )
                 continue
-            results.append(self._class(candidate, occurring, explored, pieces, loci))
+            own = [p for p in pieces if p.defects.types == candidate.types]
+            results.append(_class(candidate, occurring, explored, own))
         return tuple(results)
 
-    def _class(
-        self,
-        candidate: SingularityClass,
-        occurring: set[SingularityType],
-        explored: Exploration,
-        pieces: Sequence[Piece],
-        loci: Sequence[Locus],
-    ) -> ClassResult:
-        own = [p for p in pieces if p.defects.types == candidate.types]
-        present = sorted(
-            (p for p in own if p.verdict.is_yes), key=lambda p: (-(p.dimension or 0), str(p.path))
-        )
-        dimension = max((p.dimension for p in present if p.dimension is not None), default=None)
-        doubts = [p.verdict.reason for p in own if _in_doubt(p, dimension)]
-        doubts += explored.doubts(candidate.types)
-        known = explored.certainty_of(candidate.types)
-        if present:
-            certainty = present[0].verdict.certainty
-            verdict = Verdict.yes(certainty, reason=_reservations(own, doubts, known))
-            steps: tuple[str, ...] = (found_in(candidate.types),)
-        elif doubts:
-            verdict = Verdict.undecided("; ".join(dict.fromkeys(doubts)))
-            steps = (found_in(candidate.types),)
-        else:
-            ruled_out = [p.verdict.reason for p in own]
-            certainty = weakest(known, *(p.verdict.certainty for p in own))
-            reason = "; ".join(dict.fromkeys(ruled_out)) or "no stratum of the four ranks has these types"
-            verdict = Verdict.no(certainty, reason=reason)
-            steps = (excluded_in(candidate.types, occurring),)
-        points = _counted(present) if dimension == 0 and not doubts else None
-        return ClassResult(
-            candidate,
-            verdict,
-            tuple(present),
-            dimension,
-            points,
-            _components(present, loci) if dimension == 1 else points,
-            steps,
-            conditions_latex(present),
-        )
+
+def _class(
+    candidate: SingularityClass,
+    occurring: set[SingularityType],
+    explored: Exploration,
+    own: Sequence[Piece],
+) -> ClassResult:
+    """What its pieces say of a class, and the doubts about those and about parts that were not searched."""
+    present = sorted((p for p in own if p.verdict.is_yes), key=lambda p: (-p.extent.at_least, str(p.path)))
+    unexplored = explored.doubts(candidate.types)
+    extent = union((p.extent for p in own if not p.verdict.is_no), unexplored)
+    known = explored.certainty_of(candidate.types)
+    points = components = None
+    uncounted = ""
+    if present:
+        certainty = present[0].verdict.certainty
+        verdict = Verdict.yes(certainty, reason=_reservations(extent, known))
+        steps: tuple[str, ...] = (found_in(candidate.types),)
+        points, components, uncounted = _counts(extent, own)
+    elif unexplored or any(p.verdict.is_undecided for p in own):
+        reasons = [*(p.verdict.reason for p in own if p.verdict.is_undecided), *unexplored]
+        verdict = Verdict.undecided("; ".join(dict.fromkeys(reasons)))
+        steps = (found_in(candidate.types),)
+    else:
+        certainty = weakest(known, *(p.verdict.certainty for p in own))
+        ruled_out = "; ".join(dict.fromkeys(p.verdict.reason for p in own))
+        verdict = Verdict.no(certainty, reason=ruled_out or "no stratum of the four ranks has these types")
+        steps, extent = (excluded_in(candidate.types, occurring),), EMPTY
+    return ClassResult(
+        candidate,
+        verdict,
+        tuple(present),
+        extent,
+        points,
+        components,
+        steps,
+        conditions_latex(present),
+        uncounted,
+    )
 
 
-def _largest(polynomial: Polynomial, pieces: Sequence[Piece]) -> list[Piece]:
-    """The pieces of largest dimension on which a polynomial vanishes: all of them where they are points."""
-    known = [p for p in pieces if p.dimension is not None and p.dimension >= 0]
-    for piece in sorted(known, key=lambda p: (-(p.dimension or 0), polynomial not in p.path)):
-        if piece.dimension == 0:
-            return [p for p in known if p.dimension == 0 and _vanishes(polynomial, p)]
-        if _vanishes(polynomial, piece):
-            return [piece]
-    return []
+def _counts(extent: Extent, pieces: Sequence[Piece]) -> tuple[int | None, int | None, str]:
+    """Points and connected components of a class, or why they are not known.
 
-
-def _vanishes(polynomial: Polynomial, piece: Piece) -> bool:
-    """Whether a polynomial vanishes on a piece: by its path, or as a member of its ideal.
-
-    A witness where it is large rules it out; a membership that takes long is not waited for.
+    Points of a curve's class that are on no curve of it are components too.
     """
-    if polynomial in piece.path:
-        return True
-    places = [[float(w.coordinates[name]) for name in polynomial.ring.names] for w in piece.witnesses]
-    if any(abs(polynomial.evaluate(x)) > 1e-6 for x in places):
-        return False
-    try:
-        with Budget(MEMBERSHIP_SECONDS):
-            return Ideal(polynomial.ring, piece.basis).contains(polynomial)
-    except Undecided:
-        return False
+    if extent.dimension not in (0, 1):
+        return None, None, ""
+    own = [p for p in pieces if not p.verdict.is_no]
+    reasons = [p.verdict.reason for p in own if p.verdict.is_undecided]
+    reasons += [p.uncounted or p.extent.open for p in own if p.verdict.is_yes and p.components is None]
+    if reasons:
+        said = "; ".join(dict.fromkeys(filter(None, reasons)))
+        return None, None, f"not counted: {said or 'no reason is known'}"
+    total = sum(p.components or 0 for p in own)
+    return (total if extent.dimension == 0 else None), total, ""
 
 
-def _counted(pieces: Sequence[Piece]) -> int | None:
-    """The points of finite pieces together; None where those of one were not counted."""
-    if any(p.points is None and p.dimension == 0 for p in pieces):
-        return None
-    return sum(p.points or 0 for p in pieces)
-
-
-def _with_components(locus: Locus, counted: Counted) -> Locus:
-    verdict = locus.verdict
-    if counted.components is None:
-        verdict = replace(verdict, reason=f"components not counted: {counted.reason}")
-    return replace(locus, components=counted.components, verdict=verdict)
+def _locus(label: str, factor: Factor, piece: Piece, counted: Counted | None) -> Locus:
+    components, uncounted = piece.components, piece.extent.open
+    if counted is not None:
+        components, uncounted = counted.components, counted.reason
+    return Locus(
+        label,
+        factor.polynomial,
+        factor.words,
+        factor.latex(),
+        piece.verdict,
+        piece.extent,
+        components,
+        piece.points,
+        "" if components is not None else uncounted,
+    )
 
 
 def _dimensions(pieces: Iterable[Piece]) -> dict[SingularityType, int]:
-    """The largest known dimension of pieces of each class."""
+    """The largest dimension of each class that a certified point shows."""
     found: dict[SingularityType, int] = {}
     for piece in pieces:
-        if piece.verdict.is_yes and piece.dimension is not None:
+        if piece.verdict.is_yes:
             types = piece.defects.types
-            found[types] = max(piece.dimension, found.get(types, 0))
+            found[types] = max(piece.extent.at_least, found.get(types, 0))
     return found
 
 
-def _in_doubt(piece: Piece, known: int | None) -> bool:
-    """Whether a piece may change what is known of its class: dimension, points or connected components."""
-    if not piece.verdict.is_undecided and piece.dimension is not None:
-        return False
-    return known is None or known < 2 or piece.at_most is None or piece.at_most > known
-
-
 def _open(piece: Piece, known: int | None) -> bool:
-    """Whether a longer look may be worth while: also at points that are to be counted."""
-    uncounted = piece.verdict.is_yes and piece.dimension == 0 and piece.points is None
-    return _in_doubt(piece, known) or (uncounted and known == 0)
+    """Whether a longer look may change what is known of the class: its dimension, points or components."""
+    if piece.verdict.is_no:
+        return False
+    most = piece.extent.at_most
+    if known is None or most is None or most > known:
+        return True
+    uncounted = known == 0 and piece.points is None
+    return uncounted or (piece.verdict.is_undecided and known < 2)
 
 
-def _reservations(pieces: Iterable[Piece], doubts: Sequence[str], known: Certainty) -> str:
+def _reservations(extent: Extent, known: Certainty) -> str:
     """What is not known, or not proven, of a class that occurs; `known`: how it is that there is no more."""
-    if doubts:
-        return f"there may be more of it: {'; '.join(dict.fromkeys(doubts))}"
+    if extent.dimension is None:
+        return f"its dimension is {extent}: {extent.open}"
     if known != "proven":
         return "that there is no more of it rests on random primes"
-    if any(p.verdict.is_undecided and p.bounded != "proven" for p in pieces):
+    if extent.bounded != "proven":
         return "that no part of it has a larger dimension rests on random primes"
     return ""
-
-
-def _components(pieces: Sequence[Piece], loci: Sequence[Locus]) -> int | None:
-    """Components of a one-dimensional class, each locus counted by itself and closed up."""
-    paths = {p.path for p in pieces if p.dimension == 1}
-    total = 0
-    for path in paths:
-        counted = [locus.components for locus in loci if path == (locus.factor,)]
-        if not counted or counted[0] is None:
-            return None
-        total += counted[0]
-    return total
 
 
 def conditions_latex(pieces: Sequence[Piece]) -> str:

@@ -12,7 +12,9 @@ from dataclasses import dataclass, field, replace
 
 from flint import arb
 
+from singsym.classes.dimension_bounds import Bound, bound_above, larger_parts, points_off_exclusions
 from singsym.classes.explore import Found
+from singsym.classes.extent import EMPTY, Extent
 from singsym.classes.patches import Patch, unsplit
 from singsym.classes.presence import is_proven_empty, restricted
 from singsym.classes.result import Configuration, Equations, Piece
@@ -22,11 +24,13 @@ from singsym.elimination.budget import Budget, Undecided, current
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.verdict import Verdict, certainties, weakest
 from singsym.kinematics.placement import Coordinates, JointValue
+from singsym.polynomials import Polynomial
 from singsym.varieties.real.box import BoxPoint
 from singsym.varieties.real.cartesian import Cartesian
+from singsym.varieties.real.critical import sample_points
 from singsym.varieties.real.curve import real_curve
 from singsym.varieties.real.curve_equations import NotACurve
-from singsym.varieties.real.cuts import Cut, dimension_by_cuts, seems_at_most
+from singsym.varieties.real.cuts import Cut, dimension_by_cuts
 from singsym.varieties.real.dimension import component_dimension, independent, real_dimension
 from singsym.varieties.real.intervals import at_precision, evaluate
 from singsym.varieties.real.points import RealPoint
@@ -40,10 +44,6 @@ SEARCHES = 300
 
 DIMENSION_SECONDS = 20.0
 """So long the dimension of a set that has a certified point is looked for."""
-BOUND_SECONDS, LONG_BOUND_SECONDS = 2.0, 15.0
-"""So long a bound is looked for where only a large dimension matters, and once more where none is found."""
-DIMENSION_SHARE = 1 / 3
-"""Of this time so much is for the dimension itself."""
 
 _BITS = 80
 
@@ -60,7 +60,8 @@ class Names:
 class RealTask:
     """A stratum to be realised on a feasible set, within a budget.
 
-    known: a dimension, where only a larger one of the stratum would matter.
+    most: a bound of the real dimension, if there is one; known: a dimension, where only a larger one of the
+    stratum would matter.
     """
 
     found: Found
@@ -68,14 +69,16 @@ class RealTask:
     names: Names
     seconds: float | None = None
     memory_mb: int | None = None
+    most: int | None = None
     known: int | None = None
 
 
 @dataclass(frozen=True)
 class CurveTask:
-    """A curve whose connected components are to be counted."""
+    """A curve off some exclusions whose connected components, closed up, are to be counted."""
 
     equations: Equations
+    exclusions: tuple[Equations, ...] = ()
     seconds: float | None = None
     memory_mb: int | None = None
 
@@ -117,25 +120,25 @@ def realise(task: RealTask) -> Realised:
         stratum.loci,
         stratum.defects,
         Verdict.undecided("not examined"),
+        Extent(-1, task.most),
     )
     exclusions = (*task.feasible.exclusions, *stratum.loci)
     system = replace(task.feasible, equations=stratum.equations, exclusions=exclusions)
     points: Points = ()
-    if task.known is not None:
-        piece = _bounded(piece, system, task.known, BOUND_SECONDS)
-        if piece.at_most is not None and piece.at_most <= task.known:
-            verdict = Verdict.undecided(f"only a dimension above {task.known} would matter")
-            return Realised(tuple(_images(replace(piece, verdict=verdict), points, task)))
     try:
         with Budget(task.seconds, task.memory_mb), certainties() as seen:
-            piece, points = _realised(piece, system, stratum)
+            if task.known is not None and (bound := _bound(system, task.known)) is not None:
+                reason = f"only a dimension above {task.known} would matter"
+                extent = Extent(-1, bound.dimension, bound.certainty, reason)
+                piece = replace(piece, verdict=Verdict.undecided(reason), extent=extent)
+            else:
+                piece, points = _realised(piece, system, stratum)
         if piece.verdict.is_no:
             verdict = replace(piece.verdict, certainty=weakest(piece.verdict.certainty, *seen))
             piece = replace(piece, verdict=verdict)
     except Undecided as reason:
-        piece = replace(piece, verdict=Verdict.undecided(str(reason)))
-        if task.known is not None:
-            piece = _bounded(piece, system, task.known, LONG_BOUND_SECONDS)
+        extent = replace(piece.extent, open=str(reason))
+        piece = replace(piece, verdict=Verdict.undecided(str(reason)), extent=extent)
     return Realised(tuple(_images(piece, points, task)))
 
 
@@ -145,7 +148,7 @@ def _realised(piece: Piece, system: RealSystem, stratum: Stratum) -> tuple[Piece
         return _given(piece, system, stratum.elsewhere)
     if component.dimension == 0:
         return _finite(piece, real_points(stratum.equations), system, stratum.elsewhere)
-    return _positive(piece, component_dimension(component, system))
+    return _counted(*_exactly(piece, *component_dimension(component, system)), system, stratum.elsewhere)
 
 
 def _images(piece: Piece, points: Points, task: RealTask) -> Iterator[Piece]:
@@ -174,19 +177,46 @@ def _images(piece: Piece, points: Points, task: RealTask) -> Iterator[Piece]:
 def _given(piece: Piece, system: RealSystem, elsewhere: tuple[Equations, ...]) -> tuple[Piece, Points]:
     """A set given by equations: where their gradients are independent at a point, a manifold near it."""
     dimension = len(system.ring.names) - len(system.closed_equations)
-    if dimension <= 0:
-        left = current().remaining()
-        with suppress(NotZeroDimensional, Undecided), current().part(None if left is None else left / 3):
-            return _finite(piece, real_points(piece.basis), system, elsewhere)
+    if dimension <= 0 and (solutions := _finitely_many(system)) is not None:
+        return _finite(piece, solutions, system, elsewhere)
     codimension = numerical_codimension(system)
     patch = unsplit(system.closed_equations, system.ring)
     if codimension is None and is_proven_empty(restricted(system, patch)):
-        return _positive(piece, (-1, None))
+        return _exactly(piece, -1, None)
     if codimension in (None, len(system.closed_equations)):
         witness = find_witness(system, tries=SEARCHES)
         if witness is not None and independent(system.closed_equations, witness.point):
-            return _positive(piece, (dimension, witness))
-    return _dependent(piece, system, patch)
+            return _counted(*_bounded(piece, system, dimension, witness), system, elsewhere)
+    return _counted(*_dependent(piece, system, patch), system, elsewhere)
+
+
+def _finitely_many(system: RealSystem) -> Sequence[RealPoint] | None:
+    """All real zeros, off the exclusions where there are too many on them; None where they are not found."""
+    left = current().remaining()
+    for zeros in (lambda: real_points(system.closed_equations), lambda: points_off_exclusions(system)):
+        with suppress(NotZeroDimensional, Undecided), current().part(None if left is None else left / 3):
+            return zeros()
+        if not system.exclusions:
+            break
+    current().check("finitely many points")
+    return None
+
+
+def _bounded(piece: Piece, system: RealSystem, dimension: int, witness: Witness) -> tuple[Piece, Points]:
+    """A set with a certified point, near which it has a dimension: is there a part with a larger one?"""
+    most = piece.extent.at_most
+    found, points = _known(piece, Extent(dimension, most), witness)
+    try:
+        for larger, other in ((dimension, witness), *larger_parts(system, dimension)):
+            found, points = _known(piece, Extent(larger, most), other)
+            if larger == most:
+                return found, points
+            if (bound := _bound(system, larger)) is not None:
+                extent = Extent(larger, bound.dimension, bound.certainty)
+                return replace(found, extent=extent), points
+        return _exactly(piece, *real_dimension(system))
+    except Undecided as reason:
+        return replace(found, extent=replace(found.extent, open=str(reason))), points
 
 
 def _dependent(piece: Piece, system: RealSystem, patch: Patch) -> tuple[Piece, Points]:
@@ -195,18 +225,14 @@ def _dependent(piece: Piece, system: RealSystem, patch: Patch) -> tuple[Piece, P
     cut = _cut(chart.system)
     if cut is not None and cut.dimension < 0:
         verdict = Verdict.no(cut.certainty, reason="there is no complex solution")
-        return replace(piece, verdict=verdict, dimension=-1), ()
+        return replace(piece, verdict=verdict, extent=EMPTY), ()
     if cut is not None and cut.point is not None and chart.faithful:
         dimension = cut.dimension - beside
         near = _unsolved(chart, patch, cut.point)
         witness = find_witness(system, tries=SEARCHES, dimension=dimension, near=[near])
         if witness is not None:
-            found, points = _positive(piece, (dimension, witness))
-            if cut.certainty == "modular":
-                reason = "its dimension rests on a Groebner basis found modulo primes"
-                found = replace(found, verdict=replace(found.verdict, reason=reason))
-            return found, points
-    return _positive(piece, real_dimension(system))
+            return _known(piece, Extent(dimension, dimension, cut.certainty), witness)
+    return _exactly(piece, *real_dimension(system))
 
 
 def _unsolved(chart: Cartesian, patch: Patch, witness: Witness) -> tuple[float, ...]:
@@ -223,18 +249,10 @@ def _charted(system: RealSystem, patch: Patch) -> tuple[Cartesian, int]:
     return chart, len(patch.solved) + chart.left_out
 
 
-def _bounded(piece: Piece, system: RealSystem, known: int, seconds: float) -> Piece:
-    """The piece with a bound of its dimension where one is found soon: the complex one, else `known`."""
+def _bound(system: RealSystem, dimension: int) -> Bound | None:
+    """A bound of the dimension of a set, where it is one."""
     chart, beside = _charted(system, unsplit(system.closed_equations, system.ring))
-    equations = chart.system.closed_equations
-    with certainties() as seen:
-        with suppress(Undecided), Budget(seconds * DIMENSION_SHARE):
-            at_most = Ideal(system.ring, equations).dimension - beside
-            return replace(piece, at_most=at_most, bounded=weakest(*seen))
-        with suppress(Undecided), Budget(seconds):
-            if seems_at_most(system.ring, equations, known + beside):
-                return replace(piece, at_most=known, bounded="modular")
-    return piece
+    return bound_above(chart.system, dimension, beside)
 
 
 def _cut(system: RealSystem) -> Cut | None:
@@ -257,33 +275,75 @@ def _finite(
     points = tuple(p for p in solutions if system.admits(p) and not _lies_in(p, elsewhere))
     if not points:
         verdict = Verdict.no(reason="none of finitely many complex solutions is real, feasible and new")
-        return replace(piece, verdict=verdict, dimension=-1, points=0), ()
+        return replace(piece, verdict=verdict, extent=EMPTY, points=0), ()
     count = len(points)
-    return replace(piece, verdict=Verdict.yes(), dimension=0, points=count, components=count), points
+    found = replace(piece, verdict=Verdict.yes(), extent=Extent(0, 0), points=count, components=count)
+    return found, points
 
 
-def _positive(piece: Piece, found: tuple[int, Witness | None]) -> tuple[Piece, Points]:
-    dimension, witness = found
+def _exactly(piece: Piece, dimension: int, witness: Witness | None) -> tuple[Piece, Points]:
+    """A set whose real dimension is known, with a point of it where there is one."""
     if witness is None:
         verdict = Verdict.no(reason="the equations have no real and feasible solution")
-        return replace(piece, verdict=verdict, dimension=-1), ()
+        return replace(piece, verdict=verdict, extent=EMPTY), ()
+    return _known(piece, Extent(dimension, dimension), witness)
+
+
+def _known(piece: Piece, extent: Extent, witness: Witness) -> tuple[Piece, Points]:
     verdict = Verdict.yes("proven" if isinstance(witness.point, RealPoint) else "certified")
-    return replace(piece, verdict=verdict, dimension=dimension), (witness.point,)
+    return replace(piece, verdict=verdict, extent=extent), (witness.point,)
+
+
+def _counted(
+    piece: Piece, points: Points, system: RealSystem, elsewhere: tuple[Equations, ...]
+) -> tuple[Piece, Points]:
+    """The same with all points where the real dimension is 0, although there may be more complex zeros.
+
+    Each real point is a connected component then, off the exclusions, and sample points meet all of them.
+    """
+    if piece.dimension != 0 or piece.points is not None:
+        return piece, points
+    try:
+        borders = tuple(_sum_of_squares(group) for group in system.exclusions)
+        samples = sample_points(system.ring, system.closed_equations, nonzero=borders)
+    except Undecided as reason:
+        return replace(piece, extent=replace(piece.extent, open=f"points not counted: {reason}")), points
+    distinct: list[RealPoint] = []
+    for point in samples:
+        if not any(point.coincides(other) for other in distinct):
+            distinct.append(point)
+    return _finite(piece, distinct, system, elsewhere)
+
+
+def _sum_of_squares(group: Equations) -> Polynomial:
+    return group[0] if len(group) == 1 else sum((g * g for g in group), start=group[0].ring.zero)
 
 
 def count(task: CurveTask) -> Counted:
     """The connected components of a real curve, closed up: the task that workers run.
 
+    What of it lies in the exclusions as a whole is left out; on the rest these are finitely many points, that
+    are left in, but not where they are components by themselves.
     They are not counted where the complex zeros are no curve, as of x^2 + y^2 = 0 in space.
     """
     try:
         with Budget(task.seconds, task.memory_mb):
-            curve = real_curve(task.equations)
-    except NotACurve as reason:
+            curve = real_curve(_off_whole_parts(task))
+            if curve.verdict.is_undecided:
+                return Counted(None, curve.verdict.reason)
+            alone = sum(_lies_in(point, task.exclusions) for point in curve.isolated_points)
+            return Counted(curve.connected_components - alone)
+    except (NotACurve, Undecided) as reason:
         return Counted(None, str(reason))
-    if curve.verdict.is_undecided:
-        return Counted(None, curve.verdict.reason)
-    return Counted(curve.connected_components)
+
+
+def _off_whole_parts(task: CurveTask) -> Ideal:
+    """The curve without the components on which all polynomials of an exclusion vanish."""
+    ideal = Ideal(task.equations[0].ring, task.equations)
+    for group in task.exclusions:
+        if (ideal + Ideal(ideal.ring, group)).dimension > 0:
+            ideal = ideal.saturate(Ideal(ideal.ring, group))
+    return ideal
 
 
 # -- configurations ----------------------------------------------------------------------------------

@@ -5,13 +5,14 @@ Source: Zlatanov, Fenton, Benhabib (1998), section 3.2 and the layout of Table 2
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from html import escape
 from typing import Any
 
+from singsym.classes.extent import UNKNOWN, Extent
 from singsym.classes.types import Defects, SingularityClass, SingularityType
-from singsym.elimination.verdict import Certainty, Verdict
+from singsym.elimination.verdict import Verdict
 from singsym.kinematics.reduction import Reduction
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import Mechanism
@@ -52,9 +53,9 @@ class Piece:
 
     path: the factors and minors set to zero on the way here, as they are printed.
     basis: generators of the ideal of the piece, loop equations included.
-    dimension: the real dimension, -1 when empty, None where undecided.
-    at_most: a bound of the dimension, where that itself is not known; bounded: how the bound is known.
-    points: the number of real points of a finite piece; components: connected components where known.
+    extent: its real dimension.
+    points: the number of real points of a finite piece; components: connected components where known;
+    uncounted: why those of a curve are not known.
     """
 
     path: Equations
@@ -62,25 +63,34 @@ class Piece:
     exclusions: tuple[Equations, ...]
     defects: Defects
     verdict: Verdict
-    dimension: int | None = None
+    extent: Extent = UNKNOWN
     points: int | None = None
     components: int | None = None
     witnesses: tuple[Configuration, ...] = ()
-    at_most: int | None = None
-    bounded: Certainty = "proven"
+    uncounted: str = ""
+
+    @property
+    def dimension(self) -> int | None:
+        """The real dimension, -1 when empty, None where it is not known."""
+        return self.extent.dimension
 
     @property
     def provisional(self) -> bool:
         """Whether a larger budget could say more."""
-        return self.verdict.is_undecided
+        return (
+            self.verdict.is_undecided
+            or self.dimension is None
+            or (self.dimension == 0 and self.points is None)
+        )
 
 
 @dataclass(frozen=True)
 class Locus:
     """The zero set of one factor of condition (4) or (5) on the configuration space.
 
-    words: what the factor says of the mechanism's points and axes, or "".
-    points: real points of a finite locus; components: connected components of a curve, where known.
+    words: what the factor says of the mechanism's points and axes, or ""; extent: its real dimension.
+    points: real points of a finite locus; components: connected components of a curve, where known; open: why
+    one of these is not known.
     """
 
     condition: str
@@ -88,9 +98,15 @@ class Locus:
     words: str
     latex: str
     verdict: Verdict
-    dimension: int | None = None
+    extent: Extent = UNKNOWN
     components: int | None = None
     points: int | None = None
+    open: str = ""
+
+    @property
+    def dimension(self) -> int | None:
+        """The real dimension, -1 when empty, None where it is not known."""
+        return self.extent.dimension
 
     def _repr_latex_(self) -> str:
         return f"$\\displaystyle {self.latex} = 0$"
@@ -100,17 +116,25 @@ class Locus:
 class ClassResult:
     """One of the 21 classes for a mechanism.
 
+    extent: its real dimension.  components: connected components of a curve, each locus counted by itself and
+    closed up, before points of other classes are taken out.  open: why a count is not known.
     steps: the steps of section 3.2 in which it was found or excluded.
     """
 
     singularity_class: SingularityClass
     verdict: Verdict
     pieces: tuple[Piece, ...]
-    dimension: int | None
+    extent: Extent
     points: int | None
     components: int | None
     steps: tuple[str, ...]
     conditions: str
+    open: str = ""
+
+    @property
+    def dimension(self) -> int | None:
+        """The real dimension, None where it is not known and where the class is empty."""
+        return self.extent.dimension if self.extent.at_least >= 0 else None
 
     @property
     def types(self) -> SingularityType:
@@ -128,14 +152,19 @@ class ClassResult:
 
 @dataclass(frozen=True)
 class SpacePiece:
-    """A component of the configuration space: its dimension, whether it is smooth, its generic defects."""
+    """A piece of the configuration space: its dimension, whether it is smooth, its generic defects."""
 
-    dimension: int | None
+    extent: Extent
     smooth: str
     defects: Defects
     verdict: Verdict
     basis: Equations = ()
     remark: str = ""
+
+    @property
+    def dimension(self) -> int | None:
+        """The real dimension, None where it is not known."""
+        return self.extent.dimension
 
 
 @dataclass(frozen=True)
@@ -156,8 +185,18 @@ class Classification:
 
     @property
     def undecided(self) -> bool:
-        """Whether any class is undecided."""
-        return any(c.verdict.is_undecided for c in self.classes)
+        """Whether a class, a dimension or a number is open, of the classes, the loci or the space."""
+        return any(True for _ in self.open_questions())
+
+    def open_questions(self) -> Iterator[tuple[str, str]]:
+        """What is not decided, each with the reason."""
+        for piece in self.configuration_space:
+            if piece.dimension is None:
+                yield "dimension of the configuration space", piece.extent.open
+        for number, locus in enumerate(self.loci, 1):
+            yield from _open(f"locus {number} of ({locus.condition})", locus)
+        for found in self.classes:
+            yield from _open(f"class {found.singularity_class.number}", found)
 
     @property
     def parameters_note(self) -> str:
@@ -189,7 +228,7 @@ class Classification:
             "parameters": list(self.equation.space.parameters),
             "configuration_space": [
                 {
-                    "dimension": piece.dimension,
+                    **_extent(piece.extent),
                     "smooth": piece.smooth,
                     "delta": piece.defects.delta,
                     "certainty": piece.verdict.certainty,
@@ -203,11 +242,11 @@ class Classification:
                     "factor": str(locus.factor),
                     "latex": locus.latex,
                     "words": locus.words,
-                    "dimension": locus.dimension,
+                    **_extent(locus.extent),
                     "components": locus.components,
                     "points": locus.points,
                     "verdict": str(locus.verdict.answer),
-                    "reason": locus.verdict.reason,
+                    "reason": locus.verdict.reason or locus.open,
                 }
                 for locus in self.loci
             ],
@@ -217,19 +256,41 @@ class Classification:
                     "types": result.types.names,
                     "verdict": str(result.verdict.answer),
                     "certainty": str(result.verdict.certainty),
+                    **_extent(result.extent),
                     "dimension": result.dimension,
                     "points": result.points,
                     "components": result.components,
                     "witnesses": [w.as_json() for w in result.witnesses],
                     "conditions": result.conditions,
                     "steps": list(result.steps),
-                    "reason": result.verdict.reason,
+                    "reason": result.verdict.reason or result.open,
                 }
                 for result in self.classes
             ],
+            "open": [{"what": what, "reason": reason} for what, reason in self.open_questions()],
             "engines": list(self.engines),
             "seconds": round(self.seconds, 3),
         }
+
+
+def _extent(extent: Extent) -> dict[str, Any]:
+    """A dimension, None where it is not known, with what is known of it then; None for an empty set."""
+    found: dict[str, Any] = {"dimension": extent.dimension}
+    if extent.dimension is None and extent.at_least >= 0:
+        found |= {"at_least": extent.at_least, "dimension_reason": extent.open}
+    elif extent.bounded != "proven":
+        found["dimension_reason"] = "that it is no larger rests on random primes"
+    return found
+
+
+def _open(what: str, found: Locus | ClassResult) -> Iterator[tuple[str, str]]:
+    """What is not known of a locus or a class, each with the reason."""
+    if found.verdict.is_undecided:
+        yield what, found.verdict.reason
+    elif found.verdict.is_yes and found.dimension is None:
+        yield f"dimension of {what}", found.extent.open
+    elif found.open:
+        yield f"number of {what}", found.open
 
 
 def _sizes(result: ClassResult) -> tuple[str, str, str]:

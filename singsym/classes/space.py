@@ -51,7 +51,7 @@ def configuration_space(
         if kept:
             remarks.append(f"only where these links keep their orientation: {kept}")
         remark = "; ".join(remarks)
-        found.append(SpacePiece(piece.dimension, smooth, defects, piece.verdict, piece.basis, remark))
+        found.append(SpacePiece(piece.extent, smooth, defects, piece.verdict, piece.basis, remark))
     return tuple(found)
 
 

@@ -4,7 +4,8 @@ Source: Zlatanov, Fenton, Benhabib (1998), sections 2.3 and 3; the bordered mino
 
 Lemma (Kronecker). Where an r-minor of a matrix does not vanish, the rank is r exactly if all (r+1)-minors
 that border it vanish.  So one minor outside an ideal and its bordering minors inside it fix the rank on
-V(ideal) minus V(minor), whether the ideal is prime or not.
+V(ideal) minus V(minor), whether the ideal is prime or not.  Off the common zeros of several r-minors the rank
+is r only where that holds for each of them: no minor is larger, or the larger ones vanish on the whole set.
 """
 
 from __future__ import annotations
@@ -68,12 +69,13 @@ class RankProblem:
 class BlockRank:
     """The rank of a block where the `minors` of that size do not all vanish.
 
-    exact: whether all minors of that size vanish where these do.
+    exact: whether all minors of that size vanish where these do; highest: whether the rank is nowhere larger.
     """
 
     rank: int
     minors: tuple[Polynomial, ...]
     exact: bool = True
+    highest: bool = True
 
 
 @dataclass(frozen=True)
@@ -125,6 +127,19 @@ class Ground:
     @property
     def equations(self) -> tuple[Polynomial, ...]:
         return self.component.generators if self.component else self.patch.generators
+
+    def has_no_zeros_inside(self, polynomial: Polynomial) -> bool:
+        """Whether the zeros of a polynomial are proven to hold no open part of the ground.
+
+        On an irreducible ground those are such that do not vanish on all of it; then what vanishes off their
+        zeros vanishes on the whole ground.
+        """
+        if self.component is not None:
+            return self.component.prime and not self.component.ideal.contains(polynomial)
+        left, rest = self.patch.restrict(polynomial), self.patch.rest
+        if len(rest) > 1 or any(f.factors() != [(f.primitive(), 1)] for f in rest):
+            return False
+        return bool(left) and all(left.gcd(f).is_constant for f in rest)
 
     def certifier(self, feasible: RealSystem, loci: Iterable[tuple[Polynomial, ...]]) -> Certifier:
         """What is known of signs and zeros on the ground off the exclusions and off some loci."""
@@ -207,7 +222,7 @@ def block_rank(
 
     Grows a nonvanishing minor border by border until all bordering minors vanish (lemma above); of several
     nonvanishing ones the one with the simplest factors is taken.
-    start: a nonvanishing minor to start from; largest: whether a larger one is known not to exist.
+    start: a nonvanishing minor to start from; largest: whether no rank on the ground is known to be larger.
 
     >>> from singsym.polynomials import Ring
     >>> R = Ring(("x", "y"))
@@ -215,7 +230,7 @@ def block_rank(
     >>> line = Ground(Patch(R, {"y": R.zero}, ()), ((1.0, 0.0),))
     >>> matrix = PolynomialMatrix.of(R, [[x, y], [x, y]])
     >>> block_rank(matrix, line, line.certifier(RealSystem(R, ()), ()))
-    BlockRank(rank=1, minors=(x,), exact=True)
+    BlockRank(rank=1, minors=(x,), exact=True, highest=True)
     """
     rows, columns = start
     last = expanded(block.select(rows, columns)) if rows else None
@@ -234,15 +249,30 @@ def block_rank(
         return BlockRank(0, ())
     if last.is_constant:
         return BlockRank(len(rows), ())
-    return _with_locus(block, ground, certifier, (rows, columns))
+    highest = largest or len(rows) == min(block.shape) or ground.has_no_zeros_inside(last)
+    return _with_locus(block, ground, certifier, (rows, columns), highest)
+
+
+def _is_rank(block: PolynomialMatrix, ground: Ground, certifier: Certifier, places: Places) -> bool:
+    """Whether all minors that border one are proven to vanish on the ground."""
+    try:
+        borders = (expanded(block.select(*border)) for border in _bordered(block.shape, *places))
+        return all(not minor or ground.vanishes(minor, certifier) for minor in borders)
+    except NotEvident:
+        return False
 
 
 def _weight(minor: Polynomial) -> tuple[int, int]:
     return (minor.total_degree, len(minor))
 
 
-def _with_locus(block: PolynomialMatrix, ground: Ground, certifier: Certifier, largest: Places) -> BlockRank:
-    """r-minors whose common zeros on the ground contain the locus of lower rank: all where they are few."""
+def _with_locus(
+    block: PolynomialMatrix, ground: Ground, certifier: Certifier, largest: Places, highest: bool
+) -> BlockRank:
+    """r-minors whose common zeros on the ground contain the locus of lower rank: all where they are few.
+
+    largest: one of them, whose bordering minors vanish; highest: whether no rank on the ground is larger.
+    """
     rows, columns = largest
     r = len(rows)
     height, width = block.shape
@@ -259,6 +289,10 @@ def _with_locus(block: PolynomialMatrix, ground: Ground, certifier: Certifier, l
         minor = expanded(block.select(i, j))
         if not minor:
             continue
+        if not (highest or (i, j) == largest or _is_rank(block, ground, certifier, (i, j))):
+            # the rank may be higher where only this minor does not vanish
+            exact = False
+            continue
         try:
             with unnoted() as seen:
                 if ground.vanishes(minor, certifier):
@@ -271,7 +305,7 @@ def _with_locus(block: PolynomialMatrix, ground: Ground, certifier: Certifier, l
         if minor.is_constant:
             return BlockRank(r, ())
         minors[minor.squarefree_part()] = None
-    return BlockRank(r, tuple(sorted(minors, key=lambda m: (_weight(m), str(m)))), exact)
+    return BlockRank(r, tuple(sorted(minors, key=lambda m: (_weight(m), str(m)))), exact, highest)
 
 
 def _swapped(shape: tuple[int, int], rows: tuple[int, ...], columns: tuple[int, ...]) -> Iterator[Places]:
@@ -361,6 +395,7 @@ def ranked(
     """
     other = {"L_O": "L_I", "L_I": "L_O"}[first]
     defect = {"L": 0, "L_p": 0}
+    highest = dict.fromkeys(_BELOW, True)
     known = dict.fromkeys(_BELOW, 0) | dict(least or {})
     loci: dict[tuple[Polynomial, ...], dict[str, int]] = {}
 
@@ -370,16 +405,17 @@ def ranked(
         parts = simplest_blocks(matrix, certifier, problem.outputs(name))
         full = problem.full(name) - parts.constant
         starts = [numerical_minor(block, ground.samples) for block in parts.blocks]
-        highest = sum(min(block.shape) for block in parts.blocks)
-        known[name] = max(full - highest, *(known[other] for other in _BELOW[name]))
+        most = sum(min(block.shape) for block in parts.blocks)
+        known[name] = max(full - most, *(known[other] for other in _BELOW[name]))
         largest = sum(len(rows) for rows, _ in starts) == full - known[name]
         found = [
             block_rank(block, ground, certifier, start, largest)
             for block, start in zip(parts.blocks, starts, strict=True)
         ]
         defect[name] = full - sum(block.rank for block in found)
+        highest[name] = all(block.highest for block in found)
         for block, whole in zip(found, parts.blocks, strict=True):
-            lower = full - (highest - min(whole.shape) + block.rank - 1)
+            lower = full - (most - min(whole.shape) + block.rank - 1)
             alternatives, exact = union_of_loci(block.minors, certifier)
             for locus in alternatives:
                 there = loci.setdefault(locus, {})
@@ -397,7 +433,7 @@ def ranked(
     before = dict(loci)
     examine(other)
     defects = Defects(defect["L"], defect["L_p"], defect["L_I"], defect["L_O"])
-    if other not in relevant(defects):
+    if other not in relevant(defects) and highest[other]:
         loci = before
     found = Stratum(ground.equations, defects, tuple(loci), ground.component)
     return Ranked(None if defects.types in evident else found, loci)

@@ -218,12 +218,12 @@ def _lean(headers: tuple[str, ...], rows: tuple[tuple[str, ...], ...], title: st
 
 
 def _space_row(piece: SpacePiece) -> tuple[str, ...]:
-    return (_count(piece.dimension), piece.smooth, piece.remark)
+    return (str(piece.extent), piece.smooth, piece.remark)
 
 
 def _locus_row(locus: Locus) -> tuple[str, ...]:
     shown = locus.words or locus.factor.short_text(6)
-    dimension = "?" if locus.verdict.is_undecided else _dimension(locus.dimension)
+    dimension = str(locus.extent)
     return (f"({locus.condition})", shown, dimension, _count(locus.components), _count(locus.points))
 
 

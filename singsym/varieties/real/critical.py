@@ -230,7 +230,7 @@ def _critical_points(
     system = (*piece, *_dependences(component, local, border, random))
     outside = wide.gens[-1] * wide.convert(border) - 1
     points = real_points(Ideal(wide, (*map(wide.convert, system), outside)), budget)
-    return _pinned([_dropped(p, ring) for p in points])
+    return _pinned([dropped(p, ring) for p in points])
 
 
 def _all_minors(matrix: PolynomialMatrix, size: int) -> list[Polynomial]:
@@ -287,7 +287,7 @@ def _pinned(points: Sequence[RealPoint], nonzero: Sequence[Polynomial] = ()) -> 
     return tuple(p for p in points if pinned(p, p.ring.constants) and all(p.sign(f) for f in nonzero))
 
 
-def _dropped(point: RealPoint, ring: Ring) -> RealPoint:
+def dropped(point: RealPoint, ring: Ring) -> RealPoint:
     """The point without its further coordinates."""
     numerators = tuple(point.numerators[point.ring.index(n)] for n in ring.names)
     return RealPoint(ring, point.minimal, point.denominator, numerators, point.low, point.high, point.bits)
