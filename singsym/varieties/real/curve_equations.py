@@ -58,8 +58,8 @@ def candidates(ring: Ring, generators: tuple[Polynomial, ...], budget: Budget) -
     if dimension != 1:
         _refuse(dimension, 0)
     curves = [p for p in pieces if p.dimension == 1]
-    if any(not (p.prime or p.cohen_macaulay) for p in curves):
-        raise Undecided("a component of the curve is not proven prime: it may hide isolated points")
+    if not all(p.is_pure for p in curves):
+        raise Undecided("a part of the curve is not proven to have one dimension: it may hide points")
     points = _isolated(pieces, curves, budget)
     certainty: Certainty = "modular" if any(p.ideal.certainty == "modular" for p in pieces) else "proven"
     if len(equations) > size - 1 and not points:

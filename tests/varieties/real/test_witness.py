@@ -7,6 +7,8 @@ import pytest
 
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import AlgebraicConstant, Ring
+from singsym.varieties.decomposition import Component
+from singsym.varieties.purity import PurePiece
 from singsym.varieties.real.dimension import local_dimension
 from singsym.varieties.real.witness import RealSystem, find_witness
 
@@ -24,7 +26,8 @@ def test_each_curve_of_the_linkage_has_a_certified_point(linkage, triple):
     assert all(found.sign(f) == 0 for f in equations)
     assert found.sign(above) == 1
     assert len(found.frozen) == 1 or found.frozen == ("Bx", "By")  # one angle is given
-    assert local_dimension(found, Ideal(linkage.ring, equations)) == 1
+    curve = PurePiece.of(Component(Ideal(linkage.ring, equations), prime=False, dimension=1))
+    assert local_dimension(found, curve) == 1
 
 
 def test_exclusions_leave_their_points_out():
@@ -61,4 +64,5 @@ def test_a_singular_point_is_not_called_smooth():
     from singsym.varieties.real.zerodim import real_points
 
     (node,) = real_points([x, y, z])
-    assert local_dimension(node, Ideal(R, (x * y, z))) is None
+    axes = PurePiece.of(Component(Ideal(R, (x * y, z)), prime=False, dimension=1))
+    assert local_dimension(node, axes) is None
