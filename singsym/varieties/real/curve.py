@@ -86,12 +86,18 @@ class RealCurve:
         >>> x, y = Ring(("x", "y")).gens
         >>> real_curve([x**2 + y**2 - 1]).without(x, x - 2)
         2
+        >>> real_curve([(x**2 + y**2 - 1) * (x - 5), (x**2 + y**2 - 1) * y]).without(x - 5)
+        1
         """
         if self._proof is None:
             raise Undecided(f"the topology of the curve is {self.verdict}")
-        removed = [p for e in exclusions for p in real_points((*self._proof.equations, e), budget)]
+        isolated = [p for p in self.isolated_points if all(map(p.sign, exclusions))]
+        equations = self._proof.equations
+        if not equations:
+            return len(isolated)
+        removed = [p for e in exclusions for p in real_points((*equations, e), budget)]
         proof = extended(self._proof, removed, current(budget))
-        return count_without(proof, removed, self.isolated_points)
+        return count_without(proof, removed, isolated)
 
     def __repr__(self) -> str:
         if self.verdict.is_undecided:
