@@ -7,7 +7,7 @@ Source: critical points meet every component (curve_critical.py); proven tubes j
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import networkx as nx
 import numpy as np
@@ -15,7 +15,7 @@ import numpy as np
 from singsym.elimination.budget import Budget, Undecided, current
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.progress import Sink, report, to
-from singsym.elimination.verdict import Certainty, Verdict
+from singsym.elimination.verdict import Verdict, certainties, weakest
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.real.curve_arithmetic import Array, System
 from singsym.varieties.real.curve_assembly import Assembly, assemble, count_without, extended
@@ -57,8 +57,8 @@ class RealCurve:
     components: the connected components other than isolated points, in no particular order.
     graph: a networkx multigraph: nodes are singular points, ends at infinity and one for each smooth loop;
     an edge is an arc, with attributes `polyline` and `component`.
-    verdict: yes ("certified") if the topology is proven; else undecided with the reason, and what is there
-    is a drawing only.
+    verdict: yes ("certified") if the topology is proven, "modular" where that no critical point is missing
+    rests on random primes; else undecided with the reason, and what is there is a drawing only.
     """
 
     ring: Ring
@@ -132,11 +132,13 @@ def real_curve(
         raise ValueError("a curve is expected, not the whole space: no equations were given")
     ring: Ring = generators[0].ring
     budget = current(budget)
-    with to(progress):
+    with to(progress), certainties() as seen:
         try:
-            return _solved(ring, generators, budget, seed, drawing)
+            found = _solved(ring, generators, budget, seed, drawing)
         except Undecided as reason:
             return _undecided(ring, str(reason))
+    verdict = replace(found.verdict, certainty=weakest(found.verdict.certainty, *seen))
+    return replace(found, verdict=verdict)
 
 
 def _solved(
@@ -189,8 +191,7 @@ def _result(ring: Ring, proof: Assembly, choice: CurveEquations, drawing: bool) 
             data["component"] = number
         lines = tuple(data["polyline"] for *_, data in arcs)
         components.append(CurveComponent(names, not ends, ends, points, lines))
-    certainty: Certainty = "modular" if choice.certainty == "modular" else "certified"
-    verdict = Verdict.yes(certainty, reason="every arc is covered by proven tubes")
+    verdict = Verdict.yes("certified", reason="every arc is covered by proven tubes")
     if drawing:
         verdict = Verdict.undecided("drawn only: the arcs were tracked, but not proven")
     singular = tuple(s.point for s in proof.stars)
