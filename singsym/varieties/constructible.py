@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from singsym.elimination.budget import Budget, Undecided, current
 from singsym.elimination.ideal import Ideal
-from singsym.elimination.verdict import Verdict
+from singsym.elimination.verdict import Verdict, weakest
 from singsym.polynomials import Polynomial, Rational, Ring
 from singsym.varieties.cells import Cell, Field
 from singsym.varieties.decomposition import Component, prune
@@ -135,8 +135,8 @@ class ConstructibleSet:
         reasons = [v.reason for v in verdicts if v.is_undecided]
         if reasons:
             return Verdict.undecided("; ".join(dict.fromkeys(reasons)))
-        weak = next((v for v in verdicts if v.certainty != "proven"), None)
-        return weak or Verdict.yes("proven", reason="every cell is empty")
+        certainty = weakest(*(v.certainty for v in verdicts))
+        return Verdict.yes(certainty, reason="every cell is empty")
 
     def is_subset(
         self, other: ConstructibleSet, field: Field = "complex", budget: Budget | None = None

@@ -148,6 +148,19 @@ def test_the_origin_beside_a_curve_of_excess(seed: int, pace: str) -> None:
         assert dimension == 0
 
 
+def test_the_rest_of_a_set_without_its_excess(pace: str) -> None:
+    """Without the curve f = g = 0 finitely many complex points are left, by the ranks of (p, q) as above.
+
+    There may be one more on the curve only where it meets the closure of these points, which are closed.
+    """
+    quadric = x * y - z + x
+    excess = ConstructibleSet.zeros(R, x**2 + y**2 + z**2 + 1, quadric)
+    whole = ConstructibleSet.zeros(R, *residual(Random(1), R, quadric))
+    assert whole.dimension == 1
+    assert (whole - excess).dimension == 0
+    assert (whole - excess).closure().dimension == 0
+
+
 def test_the_axis_beside_a_surface_of_excess(pace: str) -> None:
     """The w-axis, on which all p_i and q_i vanish, is real, so that the dimension is 1 at least.
 

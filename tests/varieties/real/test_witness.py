@@ -3,6 +3,7 @@
 import pickle
 from fractions import Fraction
 
+import numpy as np
 import pytest
 
 from singsym.elimination.ideal import Ideal
@@ -10,7 +11,7 @@ from singsym.polynomials import AlgebraicConstant, Ring
 from singsym.varieties.decomposition import Component
 from singsym.varieties.purity import PurePiece
 from singsym.varieties.real.dimension import local_dimension
-from singsym.varieties.real.witness import RealSystem, find_witness
+from singsym.varieties.real.witness import RealSystem, _certified_box, find_witness
 
 R = Ring(("x", "y", "z"))
 x, y, z = R.gens
@@ -52,6 +53,16 @@ def test_constants_keep_their_value():
     assert found.sign(s) == 1
     assert "s" not in found.frozen
     assert find_witness(RealSystem(ring, (a**2 + b**2 + s,)), tries=5) is None
+
+
+def test_a_box_around_a_conjugate_is_refused():
+    """x = s = -sqrt(3) solves the equations, with a conjugate of the constant sqrt(3)."""
+    ring = Ring(("x", "s"), constants=(AlgebraicConstant("s", (-3, 0, 1), Fraction(1), Fraction(2)),))
+    a, s = ring.gens
+    system = RealSystem(ring, (a - s,))
+    equations = system.closed_equations
+    assert _certified_box(system, equations, {}, np.array([1.7, 1.7])) is not None
+    assert _certified_box(system, equations, {}, np.array([-1.7, -1.7])) is None
 
 
 def test_a_witness_can_be_pickled():
