@@ -304,16 +304,16 @@ def _by_eliminant(system: _System, ideal: Ideal, dimension: int) -> tuple[Compon
 
 
 def _smaller(system: _System, ideal: Ideal, main: Component, beside: Polynomial) -> Iterator[Component]:
-    """The zeros of an ideal outside its main part, which are among those of `beside`."""
-    if main.dimension == system.least:
-        return
-    for g in main.generators:
-        if ideal.contains(g):
-            continue
+    """Pieces that hold the zeros of an ideal outside its main part, all of them zeros of `beside`."""
+    # where the main part has the least dimension, what is smaller lies in other branches
+    outside = [g for g in main.generators if not ideal.contains(g)] if main.dimension > system.least else []
+    for g in outside:
         rest = _saturated(ideal, g)
         apart = system.plus(beside) if rest is None else system.replaced(rest.generators, same_ideal=False)
         for piece in _refine(apart):
             yield _in_ring(piece, system.ring)
+        if rest is None:
+            return
 
 
 def _saturated(ideal: Ideal, polynomial: Polynomial) -> Ideal | None:

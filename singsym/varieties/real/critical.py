@@ -171,7 +171,8 @@ def _choices(piece: PurePiece, known: tuple[Polynomial, ...]) -> Iterator[tuple[
         yield tuple(generators)
         return
     random = Random(2)
-    yield _independent(generators, codimension, random)
+    if len(independent := _independent(generators, codimension, random)) == codimension:
+        yield independent
     for _ in range(3):
         yield tuple(
             sum((g * random.randint(-3, 3) for g in generators), start=piece.ring.zero)
