@@ -22,7 +22,7 @@ from singsym.varieties.circles import unit_circles
 from singsym.varieties.real.bounds import sign_within
 from singsym.varieties.real.box import BoxPoint, boxed_point
 from singsym.varieties.real.points import RealPoint
-from singsym.varieties.real.zerodim import NotZeroDimensional, real_points
+from singsym.varieties.real.zerodim import NotZeroDimensional, pinned, real_points
 
 if TYPE_CHECKING:
     from singsym.varieties.real.search import Compiled, Vector
@@ -329,7 +329,8 @@ def _certified_box(
 ) -> BoxPoint | None:
     point = boxed_point(system.ring, equations, values, [float(v) for v in sample])
     try:
-        return point if point is not None and system.admits(point) else None
+        known = point is not None and pinned(point, system.ring.constants) and system.admits(point)
+        return point if known else None
     except Undecided:
         return None
 
