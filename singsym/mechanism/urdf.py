@@ -15,6 +15,7 @@ from typing import Any
 
 import sympy
 
+from singsym.mechanism.arcs import decimal_arc
 from singsym.mechanism.checks import check
 from singsym.mechanism.expressions import RESERVED, expression
 from singsym.mechanism.model import (
@@ -29,7 +30,7 @@ from singsym.mechanism.model import (
     Twist,
     Vector,
 )
-from singsym.mechanism.outputs import TWISTS, angle_limit
+from singsym.mechanism.outputs import TWISTS
 from singsym.mechanism.problems import MechanismError, Problem
 
 TOLERANCE = 1e-4
@@ -224,27 +225,26 @@ class _Arm:
         return exact / sympy.sqrt(exact.dot(exact))
 
     def limit(self, name: str, turning: bool, limit: Any) -> None:
-        """Lengths as spelled; a range of angle as a bound on a cosine, rounded to six digits."""
-        low, high = limit.lower, limit.upper
-        if low is None or high is None or not (math.isfinite(low) and math.isfinite(high)) or low >= high:
+        """A length's range as spelled; an angle's in cosine and sine, with ends rounded outwards."""
+        # What is not given is zero, says the specification.
+        low, high = float(limit.lower or 0), float(limit.upper or 0)
+        if low == high:
+            self.notes.append(f"Limits of {name}: left out, as both are {low:g}.")
             return
+        if not low < high:
+            found, expected = f"the limits {low} and {high}", "the lower limit first"
+            raise MechanismError([Problem(f"joint {name}", found, expected, file=self.file)])
         if not turning:
-            bounds = expression(float(low)), expression(float(high))
-            self.limits.append(Limit(sympy.Symbol(f"length({name})"), *bounds))
-            return
-        half, middle = (high - low) / 2, (high + low) / 2
-        if half >= math.pi:
-            return
-        least = expression(round(math.cos(half), 6))
-        if abs(middle) < 1e-6:
-            self.limits.append(angle_limit(name, sympy.Integer(0), least))
-        else:
-            turn = rational_rotation(
-                [[math.cos(middle), -math.sin(middle), 0], [math.sin(middle), math.cos(middle), 0], [0, 0, 1]]
-            )
-            cosine, sine = sympy.Symbol(f"cos({name})"), sympy.Symbol(f"sin({name})")
-            self.limits.append(Limit(turn[0, 0] * cosine + turn[1, 0] * sine, low=least))
-        self.notes.append(f"Limits of {name}: cosines rounded to 1e-6.")
+            ends = (expression(end) if math.isfinite(end) else None for end in (low, high))
+            bounds = Limit(sympy.Symbol(f"length({name})"), *ends)
+            if bounds.low is not None or bounds.high is not None:
+                self.limits.append(bounds)
+        elif math.isfinite(low) and math.isfinite(high):
+            arc, words = decimal_arc(name, low, high)
+            if arc is not None:
+                self.limits.append(arc)
+            if words:
+                self.notes.append(f"Limits of {name}: {words}.")
 
 
 def rational_rotation(matrix: Sequence[Sequence[float]]) -> sympy.Matrix:
