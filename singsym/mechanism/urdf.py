@@ -5,6 +5,7 @@ Source: the URDF specification (https://wiki.ros.org/urdf/XML), read by yourdfpy
 
 from __future__ import annotations
 
+import io
 import math
 import re
 from collections.abc import Sequence
@@ -56,27 +57,42 @@ def from_urdf(path: str | Path, tip: str | None = None, components: Sequence[str
     turns within `TOLERANCE`, else rational rotations within 1e-5, and `description` says so.
     Raises `ImportError` without yourdfpy, `MechanismError` for what the file lacks.
     """
-    try:
-        import yourdfpy
-    except ImportError:
-        raise ImportError("URDF files are read by yourdfpy: pip install 'singsym[urdf]'") from None
     file = str(path)
-    if not Path(path).is_file():
-        raise FileNotFoundError(f"no file is called {file}")
-    try:
-        robot = yourdfpy.URDF.load(
-            file, build_scene_graph=False, load_meshes=False, load_collision_meshes=False
-        ).robot
-    except (ValueError, TypeError, AttributeError, SyntaxError) as error:
-        found = f"{type(error).__name__}: {error}"
-        raise MechanismError(
-            [Problem("file", found, "URDF: <robot> with links and joints", file=file)]
-        ) from None
+    robot = _robot(Path(path), file)
     chain, notes = _chain(robot, tip, file)
-    mechanism = _Arm(file, notes).build(robot.name or Path(path).stem, chain, components)
+    mechanism = _Arm(file, notes).build(robot.name, chain, components)
     if problems := check(mechanism):
         raise MechanismError(problems)
     return mechanism
+
+
+def _robot(path: Path, file: str) -> Any:
+    """The links' names and the joints of a file; visuals, meshes and masses are not looked at."""
+    try:
+        import yourdfpy
+        from lxml import etree
+    except ImportError:
+        raise ImportError("URDF files are read by yourdfpy: pip install 'singsym[urdf]'") from None
+    if not path.is_file():
+        raise FileNotFoundError(f"no file is called {file}")
+    expected = "URDF: <robot> with links and joints"
+    # Prefixes of names that are not declared are usual in such files; other faults of the XML are not.
+    parser = etree.XMLParser(recover=True, resolve_entities=False, no_network=True)
+    content = path.read_bytes()
+    root = etree.fromstring(content, parser) if content.strip() else None
+    faults = [f"line {e.line}: {e.message}" for e in parser.error_log if e.domain_name != "NAMESPACE"]
+    if faults or root is None or root.tag != "robot":
+        found = faults[0] if faults else "no XML" if root is None else f"<{root.tag}>"
+        raise MechanismError([Problem("file", found, expected, file=file)])
+    bare = etree.Element("robot", name=root.get("name") or path.stem)
+    for link in root.findall("link"):
+        etree.SubElement(bare, "link", {key: link.get(key) for key in ("name",) if key in link.attrib})
+    bare.extend(root.findall("joint"))
+    try:
+        return yourdfpy.URDF.load(io.BytesIO(etree.tostring(bare)), build_scene_graph=False).robot
+    except (ValueError, TypeError, AttributeError, LookupError) as error:
+        found = f"{type(error).__name__}: {error}"
+        raise MechanismError([Problem("file", found, expected, file=file)]) from None
 
 
 def _chain(robot: Any, tip: str | None, file: str) -> tuple[list[Any], list[str]]:

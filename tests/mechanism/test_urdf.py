@@ -150,3 +150,29 @@ def test_without_yourdfpy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> No
     monkeypatch.setitem(sys.modules, "yourdfpy", None)
     with pytest.raises(ImportError, match=r"singsym\[urdf\]"):
         from_urdf(tmp_path / "arm.urdf")
+
+
+def test_what_a_file_lacks_is_said_in_a_sentence(tmp_path: Path) -> None:
+    unnamed = Path(__file__).parent.parent / "cases" / "no-robot-name.urdf"
+    assert from_urdf(unnamed, components=["wz"]).name == "no-robot-name"
+    path = tmp_path / "arm.urdf"
+    link, joint = '<link name="a"/><link name="b"/>', '<parent link="a"/><child link="b"/>'
+    for text, found in (
+        ("", "no XML"),
+        ("<robot", "line 1"),
+        ("<sdf/>", "<sdf>"),
+        (f"<robot>{link}<joint type='revolute'>{joint}</joint></robot>", "KeyError: 'name'"),
+        (f"<robot>{link}<joint name='j' type='revolute'/></robot>", "AttributeError"),
+        (f"<!DOCTYPE r [<!ENTITY x '{link}'>]><robot>&x;</robot>", "0 last links"),
+    ):
+        path.write_text(text, encoding="utf-8")
+        with pytest.raises(MechanismError, match=found):
+            from_urdf(path)
+    # Names with undeclared prefixes, and meshes that are not there, are passed over.
+    visual = "<visual><geometry><mesh/></geometry></visual>"
+    path.write_text(
+        f"<robot name='r'><link name='a'>{visual}</link><link name='b'/><gz:plugin/>"
+        f"<joint name='j' type='revolute'>{joint}</joint></robot>",
+        encoding="utf-8",
+    )
+    assert from_urdf(path, components=["wz"]).name == "r"
