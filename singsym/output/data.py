@@ -93,7 +93,7 @@ def _condition(condition: Condition) -> dict[str, Any]:
                 {
                     "polynomial": str(f.polynomial),
                     "multiplicity": f.multiplicity,
-                    "name": f.name.text if f.name else "",
+                    "name": f.name.quantity.text if f.name else "",
                     "words": f.words,
                     "latex": f.latex(),
                 }

@@ -150,11 +150,8 @@ def condition_text(condition: Condition) -> str:
     for place, alternative in enumerate(condition.alternatives or ()):
         lead = "  if " if place == 0 else "  or "
         for factor in alternative:
-            shown = factor.polynomial.short_text(LONGEST)
-            if factor.name:
-                shown = f"{factor.name.text} = {shown}"
             words = f"  ({factor.words})" if factor.words else ""
-            lines.append(f"{lead}{shown} = 0{words}")
+            lines.append(f"{lead}{factor.text(LONGEST)} = 0{words}")
             lead = "     and "
     lines += [f"  without the factor {unit}" for unit in condition.units]
     return "\n".join(lines)
