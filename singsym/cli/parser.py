@@ -206,7 +206,7 @@ def _configuration(command: argparse.ArgumentParser) -> None:
         help="TOML with [joints] A = '30 deg', [points] B = [0.3, 0.95], [variables] Bx = 0.3",
     )
     command.add_argument(
-        "--tolerance", type=_positive, help="singular values below this fraction of the largest count as zero"
+        "--tolerance", type=_positive, help="singular values below this count as zero"
     )
 
 

@@ -10,7 +10,7 @@ import pytest
 import sympy
 
 from singsym.kinematics import check_mobility, place, sample_configurations, velocity_equation
-from singsym.kinematics.mobility import numerical_rank
+from singsym.kinematics.numerical_rank import numerical_rank
 from singsym.kinematics.sampling import numerical_matrix
 from singsym.mechanism import load
 from singsym.mechanism.model import Joint, JointKind, JointRate, Link, Mechanism, PointVelocity, Space, Twist
