@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from singsym.classes.exact import exact_kernels, exact_values
 from singsym.classes.given import DOUBLE_DIGITS, Given, Target, targets
 from singsym.classes.locate import Located, is_feasible, locate, number, size
-from singsym.classes.motions import Motion, null_motions
+from singsym.classes.motions import Motion, null_motions, numerical_kernels
 from singsym.classes.types import Defects, SingularityClass, SingularityType, class_of
 from singsym.kinematics.numerical_rank import NumericalRank, gap_below, numerical_rank
 from singsym.kinematics.scaling import Scaled, scaled_matrix
@@ -39,7 +39,8 @@ class MatrixReport:
     joint screws, lengths over the characteristic length.
     distance: the smallest singular value of those that a regular configuration has.  By Eckart and Young that
     is how far the scaled matrix is from the nearest one of too low a rank.  It depends neither on the unit of
-    length nor on the frame, changes continuously with the configuration, and is zero where the rank is low.
+    length nor on the frame, changes continuously with the configuration, and is zero where the rank is low;
+    infinite for a matrix without columns that a regular configuration has.
     """
 
     rank: int
@@ -129,7 +130,7 @@ def at_equation(
     extent: float | None = None,
     file: str = "",
 ) -> Analysis:
-    """The same for a velocity equation; extent: a length of the mechanism's size, to start the search with."""
+    """The same for a velocity equation; extent: a length of the mechanism's size."""
     read = given if isinstance(given, Given) else Given.of(given, file)
     wanted = targets(read, equation, file)
     extent = extent or size(equation)
@@ -196,7 +197,7 @@ def _exact_analysis(
 
 
 def _orthonormal(scaled: Scaled, name: str, kernel: Floats) -> Floats:
-    """Rows over all columns of L, orthonormal in scaled rates, from rows of rates over those of a submatrix."""
+    """Rows over all columns of L, orthonormal in scaled rates, of rows of rates over a submatrix's columns."""
     import numpy as np
 
     places = scaled.columns(name)
@@ -222,26 +223,26 @@ def _numerical_analysis(
     with _precision(2 * digits if digits > DOUBLE_DIGITS else digits):
         located = locate(equation, wanted, extent, digits > DOUBLE_DIGITS)
         if located is None or located.misfit > 0.5:
-            found = "values near which no configuration was reached"
+            nothing = "values near which no configuration was reached"
             expected = "joint values, points or variables of a configuration"
-            raise MechanismError([Problem("file", found, expected, file=file)])
+            raise MechanismError([Problem("file", nothing, expected, file=file)])
         scaled = _scaled_at(equation, located.point)
         error = max(located.misfit, located.after, _change(equation, scaled, located), 10.0**-digits)
         # an error e of a length moves an extended leg's singular value by sqrt(e)
         threshold = tolerance or min(_MOST_THRESHOLD, 10 * error**0.5)
-        ranks = {
-            name: numerical_rank(part, threshold, size=1.0) for name, part in scaled.submatrices().items()
-        }
+        parts = scaled.submatrices()
+        seen = {name: numerical_rank(part, threshold, size=1.0) for name, part in parts.items()}
         configuration = _configuration(equation, located.point)
     matrices = {}
-    kernels = {}
-    for name, seen in ranks.items():
+    for name, found in seen.items():
         full = _full(equation, name)
-        matrices[name] = MatrixReport(seen.rank, full, seen.singular_values, _distance(seen, full), seen.gap)
-        kernels[name] = np.zeros((seen.right.shape[1] - seen.rank, len(scaled.units)))
-        kernels[name][:, scaled.columns(name)] = seen.right[seen.rank :]
-    defects = _defects(equation, {name: seen.rank for name, seen in ranks.items()})
+        matrices[name] = MatrixReport(
+            found.rank, full, found.singular_values, _distance(found, full), found.gap
+        )
+    ranks = {name: found.rank for name, found in seen.items()}
+    defects = _defects(equation, ranks)
     feasible = defects.is_feasible(equation.n)
+    kernels = numerical_kernels(scaled, seen, ranks) if feasible else {}
     floats = np.array([float(x) for x in located.point])
     return Analysis(
         equation,
@@ -254,7 +255,7 @@ def _numerical_analysis(
         scaled.length,
         null_motions(equation, kernels, scaled.units, defects.types) if feasible else (),
         tuple(_remarks(equation, located, floats, extent)),
-        _doubt(ranks, feasible, threshold, tolerance is not None),
+        _doubt(seen, feasible, threshold, tolerance is not None),
     )
 
 
@@ -273,11 +274,11 @@ def _change(equation: VelocityEquation, scaled: Scaled, located: Located) -> flo
     return float(np.linalg.norm(change.astype(np.float64)))
 
 
-def _doubt(ranks: Mapping[str, NumericalRank], feasible: bool, threshold: float, chosen: bool) -> str:
+def _doubt(seen: Mapping[str, NumericalRank], feasible: bool, threshold: float, chosen: bool) -> str:
     """Why numerical ranks are undecided; chosen: whether the threshold was the user's own."""
     if not feasible:
         return f"the numerical ranks contradict each other at threshold {threshold:.1e}"
-    unclear = [name for name, seen in ranks.items() if not seen.is_clear]
+    unclear = [name for name, found in seen.items() if not found.is_clear]
     if unclear and not chosen:
         return f"a singular value of {', '.join(unclear)} is too near to the threshold {threshold:.1e}"
     return ""
@@ -307,7 +308,9 @@ def _full(equation: VelocityEquation, name: str) -> int:
 
 
 def _distance(seen: NumericalRank, full: int) -> float:
-    return seen.singular_values[full - 1] if 0 < full <= len(seen.singular_values) else 0.0
+    if not full:
+        return float("inf")
+    return seen.singular_values[full - 1] if full <= len(seen.singular_values) else 0.0
 
 
 def _configuration(

@@ -43,7 +43,7 @@ class Given:
 
     @classmethod
     def from_file(cls, path: str | Path) -> Given:
-        """The same from a file; raises `MechanismError` for what is wrong in it, `OSError` where it is not there."""
+        """The same from a file; raises `MechanismError`, and `OSError` where it is not there."""
         return cls.from_toml(read_text(path), str(path))
 
     @classmethod
@@ -70,7 +70,7 @@ class Given:
 
     @property
     def digits(self) -> int:
-        """The digits to which the configuration is given: the fewest of those values that have more than a double.
+        """To how many digits the configuration is given: the fewest of values with more than a double's.
 
         Numbers with fewer digits may be meant exactly, as 0.3 or 1/2 are.
 

@@ -5,11 +5,13 @@ Source: Zlatanov, Fenton, Benhabib (1998), section 2.2, the definitions of the s
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from singsym.classes.types import SingularityType
+from singsym.kinematics.numerical_rank import NumericalRank
+from singsym.kinematics.scaling import Scaled
 from singsym.kinematics.velocity import VelocityEquation
 
 if TYPE_CHECKING:
@@ -70,6 +72,22 @@ def null_motions(
     return tuple(found)
 
 
+def numerical_kernels(
+    scaled: Scaled, seen: Mapping[str, NumericalRank], ranks: Mapping[str, int]
+) -> dict[str, Floats]:
+    """The kernels that `null_motions` expects, by the singular vectors of the smallest singular values.
+
+    seen: the decompositions of L, L_I, L_O, L_p; ranks: theirs, as they are known.
+    """
+    import numpy as np
+
+    found = {}
+    for name, here in seen.items():
+        found[name] = np.zeros((here.right.shape[1] - ranks[name], len(scaled.units)))
+        found[name][:, scaled.columns(name)] = here.right[ranks[name] :]
+    return found
+
+
 def _modulo(space: Floats, part: Floats) -> Floats:
     """A basis of what a space has at right angles to a part of it."""
     import numpy as np
@@ -109,7 +127,5 @@ def _named(equation: VelocityEquation, rows: Floats, units: Floats) -> list[dict
     found = []
     for row in _readable(rows) * units:
         largest = row[abs(row).argmax()]
-        found.append(
-            {c.label: float(x / largest) for c, x in zip(equation.columns, row, strict=True) if x}
-        )
+        found.append({c.label: float(x / largest) for c, x in zip(equation.columns, row, strict=True) if x})
     return found

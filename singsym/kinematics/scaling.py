@@ -150,9 +150,7 @@ def _move(matrix: Matrix, angular: list[int], linear: list[int], centre: Floats)
 def _reach(equation: VelocityEquation, matrix: Matrix, slides: Sequence[bool]) -> float:
     """The largest velocity that a unit rotation gives, where the points are all in one place."""
     rows = [i for i, name in enumerate(equation.rows) if name.rpartition(" ")[2] in _LINEAR]
-    turns = [
-        j for j, c in enumerate(equation.columns) if c.role != "output" and not slides[j]
-    ]
+    turns = [j for j, c in enumerate(equation.columns) if c.role != "output" and not slides[j]]
     return max((_norm(matrix[rows, j]) for j in turns), default=0.0)
 
 

@@ -185,8 +185,8 @@ def analysis_data(name: str, found: Analysis) -> dict[str, Any]:
                 "rank": m.rank,
                 "regular": m.full,
                 "singular_values": list(m.singular_values),
-                "distance": m.distance,
-                "gap": None if m.gap == float("inf") else m.gap,
+                "distance": _finite(m.distance),
+                "gap": _finite(m.gap),
             }
             for key, m in found.matrices.items()
         },
@@ -199,6 +199,10 @@ def analysis_data(name: str, found: Analysis) -> dict[str, Any]:
         "remarks": list(found.remarks),
         "undecided": found.undecided or None,
     }
+
+
+def _finite(value: float) -> float | None:
+    return None if value == float("inf") else value
 
 
 def _number(value: Any, digits: int) -> float | str:

@@ -332,7 +332,7 @@ def analysis_page(name: str, found: Analysis) -> Page:
     places = points_text(points) or values_text(found.values)
     where = "\n".join(filter(None, (places, values_text(found.joints))))
     ranks = tuple(
-        (name, str(m.rank), str(m.full), f"{m.distance:.2e}", "" if m.gap == float("inf") else f"{m.gap:.1e}")
+        (name, str(m.rank), str(m.full), _finite(f"{m.distance:.2e}"), _finite(f"{m.gap:.1e}"))
         for name, m in found.matrices.items()
     )
     headers = ("matrix", "rank", "regular", "distance", "gap")
@@ -348,6 +348,10 @@ def analysis_page(name: str, found: Analysis) -> Page:
     if found.remarks:
         blocks.append("\n".join(f"Note: {remark}." for remark in found.remarks))
     return tuple(blocks)
+
+
+def _finite(number: str) -> str:
+    return "" if number == "inf" else number
 
 
 def _how(found: Analysis) -> str:

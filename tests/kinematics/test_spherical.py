@@ -134,7 +134,7 @@ def test_a_folded_fourbar_is_singular() -> None:
     folded = replace(equation.space, equations=(*equation.space.equations, volume))
     for point in sample_configurations(folded, 3, 1):
         found = [
-            numerical_rank(numerical_matrix(m, point))[0] for m in (equation.L, equation.L_O, equation.L_I)
+            numerical_rank(numerical_matrix(m, point)).rank for m in (equation.L, equation.L_O, equation.L_I)
         ]
         assert found == [4, 3, 4]
 
