@@ -197,7 +197,7 @@ def _exact_analysis(
 
 
 def _orthonormal(scaled: Scaled, name: str, kernel: Floats) -> Floats:
-    """Rows over all columns of L, orthonormal in scaled rates, of rows of rates over a submatrix's columns."""
+    """The same space as rows over all columns of L, orthonormal in scaled rates."""
     import numpy as np
 
     places = scaled.columns(name)
@@ -226,8 +226,9 @@ def _numerical_analysis(
             nothing = "values near which no configuration was reached"
             expected = "joint values, points or variables of a configuration"
             raise MechanismError([Problem("file", nothing, expected, file=file)])
+        settled = digits if not _in_doubles(located.point) else DOUBLE_DIGITS
         scaled = _scaled_at(equation, located.point)
-        error = max(located.misfit, located.after, _change(equation, scaled, located), 10.0**-digits)
+        error = max(located.misfit, located.after, _change(equation, scaled, located), 10.0**-settled)
         # an error e of a length moves an extended leg's singular value by sqrt(e)
         threshold = tolerance or min(_MOST_THRESHOLD, 10 * error**0.5)
         parts = scaled.submatrices()
@@ -244,17 +245,18 @@ def _numerical_analysis(
     feasible = defects.is_feasible(equation.n)
     kernels = numerical_kernels(scaled, seen, ranks) if feasible else {}
     floats = np.array([float(x) for x in located.point])
+    lost = () if settled == digits else (f"{digits} digits were given, {settled} could be settled",)
     return Analysis(
         equation,
         *configuration,
-        digits,
+        settled,
         False,
         located,
         matrices,
         threshold,
         scaled.length,
         null_motions(equation, kernels, scaled.units, defects.types) if feasible else (),
-        tuple(_remarks(equation, located, floats, extent)),
+        (*_remarks(equation, located, floats, extent), *lost),
         _doubt(seen, feasible, threshold, tolerance is not None),
     )
 
@@ -263,7 +265,11 @@ def _scaled_at(equation: VelocityEquation, point: Sequence[Any]) -> Scaled:
     """L, scaled, at a point of floats or of mpmath numbers."""
     import numpy as np
 
-    return scaled_matrix(equation, np.array(point) if isinstance(point[0], float) else point)
+    return scaled_matrix(equation, np.array(point, float) if _in_doubles(point) else point)
+
+
+def _in_doubles(point: Sequence[Any]) -> bool:
+    return all(isinstance(x, float) for x in point)
 
 
 def _change(equation: VelocityEquation, scaled: Scaled, located: Located) -> float:
@@ -327,7 +333,7 @@ def _joint_values(equation: VelocityEquation, point: Sequence[Any]) -> dict[str,
 
     import mpmath
 
-    functions: Any = math if all(isinstance(x, float) for x in point) else mpmath
+    functions: Any = math if _in_doubles(point) else mpmath
     found = {}
     for name, joint in equation.values.items():
         if joint.length is not None:

@@ -115,12 +115,12 @@ class _Problem:
 
 
 def locate(
-    equation: VelocityEquation, wanted: Sequence[Target], extent: float, digits: int = 0, seed: int = 0
+    equation: VelocityEquation, wanted: Sequence[Target], extent: float, more: bool = False, seed: int = 0
 ) -> Located | None:
     """The configuration nearest to the targets, from several starts; None where none was reached.
 
-    Of those that are about as near, a feasible one.  extent: a length of the mechanism's size; digits: more
-    than those of a double give coordinates as mpmath numbers, worked out in the precision of `mpmath.mp`.
+    Of those that are about as near, a feasible one.  extent: a length of the mechanism's size; more: whether
+    coordinates are wanted as mpmath numbers in the precision of `mpmath.mp`: floats where none settle.
     """
     import numpy as np
 
@@ -155,7 +155,7 @@ def locate(
         len(alike) - 1,
         len(problem.free) - rank,
     )
-    return _refined(problem, found) if digits else found
+    return (_refined(problem, found) or found) if more else found
 
 
 def size(equation: VelocityEquation) -> float:
@@ -274,6 +274,8 @@ def _refined(problem: _Problem, found: Located) -> Located | None:
         pairs = zip(problem.equations, problem.loop_sizes, strict=True)
         return [e.evaluate(x) / size for e, size in pairs]
 
+    slopes = problem.on_both(y)[1]
+    start = _settled(lambda x: [*loops(x), *misfits(x)], slopes, start, problem, digits) or start
     given = _settled(misfits, problem.on_targets(y)[1], start, problem, digits)
     if given is None:
         return None
