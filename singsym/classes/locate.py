@@ -67,14 +67,24 @@ class _Problem:
         self.targets = wanted
         self.constants = {ring.index(c.name): c.expression for c in ring.constants}
         self.free = [i for i in range(names) if i not in self.constants]
-        self.sizes = _sizes(equation, extent)
         self.wanted = np.array([float(t.value) for t in wanted])
+        self.sizes = _sizes(equation, extent)
+        sides, values = self._target_sizes()
+        # what is given to be farther away than the mechanism is large makes the extent larger
+        beyond = float(np.max(values / _positive(sides), initial=1.0))
+        self.sizes = _sizes(equation, extent * beyond)
         self.loops = self._system(self.equations)
         self.sides = self._system([t.polynomial for t in wanted])
         self.scales = self._system([t.scale for t in wanted])
         self.loop_sizes = _positive(abs(self.loops.coefficients).sum(axis=1))
-        most = abs(self.wanted) * abs(self.scales.coefficients).sum(axis=1)
-        self.target_sizes = _positive(abs(self.sides.coefficients).sum(axis=1) + most)
+        sides, values = self._target_sizes()
+        self.target_sizes = _positive(sides + values)
+
+    def _target_sizes(self) -> tuple[Floats, Floats]:
+        """How large the polynomial of each target can be, and its value times its scale."""
+        sides = self._system([t.polynomial for t in self.targets]).coefficients
+        scales = self._system([t.scale for t in self.targets]).coefficients
+        return abs(sides).sum(axis=1), abs(self.wanted) * abs(scales).sum(axis=1)
 
     def _system(self, polynomials: Sequence[Polynomial]) -> NumericalSystem:
         system = NumericalSystem(polynomials, len(self.sizes))
