@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from singsym.classes.exact import exact_kernels, exact_values
 from singsym.classes.given import DOUBLE_DIGITS, Given, Target, targets
-from singsym.classes.locate import Located, is_feasible, locate, number, size
+from singsym.classes.locate import Located, is_feasible, locate, number, sizes_of_coordinates
 from singsym.classes.motions import Motion, null_motions, numerical_kernels
 from singsym.classes.types import Defects, SingularityClass, SingularityType, class_of
 from singsym.kinematics.numerical_rank import NumericalRank, gap_below, numerical_rank
@@ -119,7 +119,7 @@ def at(
     (True, 'regular')
     """
     equation = velocity_equation(mechanism, formulation)
-    return at_equation(equation, given, tolerance=tolerance, extent=_extent(mechanism), file=file)
+    return at_equation(equation, given, tolerance=tolerance, file=file)
 
 
 def at_equation(
@@ -127,36 +127,24 @@ def at_equation(
     given: Given | Mapping[str, Any],
     *,
     tolerance: float | None = None,
-    extent: float | None = None,
     file: str = "",
 ) -> Analysis:
-    """The same for a velocity equation; extent: a length of the mechanism's size."""
+    """The same for a velocity equation."""
     read = given if isinstance(given, Given) else Given.of(given, file)
     wanted = targets(read, equation, file)
-    extent = extent or size(equation)
     values = exact_values(equation, wanted)
     kernels = None if values is None else exact_kernels(equation, values)
     if values is not None and kernels is not None:
         expressions = [values[name] for name in equation.space.ring.names]
-        return _exact_analysis(equation, expressions, kernels, extent)
-    return _numerical_analysis(equation, wanted, read.digits, tolerance, extent, file)
-
-
-def _extent(mechanism: Mechanism) -> float | None:
-    """The largest distance of two points of one link; None where that is not a positive number."""
-    from itertools import combinations
-
-    links = [link.points.values() for link in mechanism.resolved.links]
-    pairs = [pair for points in links for pair in combinations(points, 2)]
-    squares = [sum((a - b) ** 2 for a, b in zip(*pair, strict=True)) for pair in pairs]
-    return max((float(s) ** 0.5 for s in squares if s.is_number), default=0.0) or None
+        return _exact_analysis(equation, expressions, kernels)
+    return _numerical_analysis(equation, wanted, read.digits, tolerance, file)
 
 
 # -- exact -------------------------------------------------------------------------------------------
 
 
 def _exact_analysis(
-    equation: VelocityEquation, values: Sequence[Any], kernels: Mapping[str, Floats], extent: float
+    equation: VelocityEquation, values: Sequence[Any], kernels: Mapping[str, Floats]
 ) -> Analysis:
     """Ranks from exact kernels; singular values with as many digits as they need to show those ranks."""
     import numpy as np
@@ -191,7 +179,7 @@ def _exact_analysis(
         0.0,
         scaled.length,
         null_motions(equation, scaled_kernels, scaled.units, types),
-        tuple(_remarks(equation, None, floats, extent)),
+        tuple(_remarks(equation, None, floats)),
         "",
     )
 
@@ -214,14 +202,13 @@ def _numerical_analysis(
     wanted: Sequence[Target],
     digits: int,
     tolerance: float | None,
-    extent: float,
     file: str,
 ) -> Analysis:
     """Ranks by singular values, of the configuration nearest to the targets."""
     import numpy as np
 
     with _precision(2 * digits if digits > DOUBLE_DIGITS else digits):
-        located = locate(equation, wanted, extent, digits > DOUBLE_DIGITS)
+        located = locate(equation, wanted, digits > DOUBLE_DIGITS)
         if located is None or located.misfit > 0.5:
             nothing = "values near which no configuration was reached"
             expected = "joint values, points or variables of a configuration"
@@ -256,7 +243,7 @@ def _numerical_analysis(
         threshold,
         scaled.length,
         null_motions(equation, kernels, scaled.units, defects.types) if feasible else (),
-        (*_remarks(equation, located, floats, extent), *lost),
+        (*_remarks(equation, located, floats), *lost),
         _doubt(seen, feasible, threshold, tolerance is not None),
     )
 
@@ -345,9 +332,7 @@ def _joint_values(equation: VelocityEquation, point: Sequence[Any]) -> dict[str,
     return found
 
 
-def _remarks(
-    equation: VelocityEquation, located: Located | None, point: Floats, extent: float
-) -> Iterator[str]:
+def _remarks(equation: VelocityEquation, located: Located | None, point: Floats) -> Iterator[str]:
     if located is not None:
         if located.others and not located.open:
             others = (
@@ -359,5 +344,5 @@ def _remarks(
             yield f"the given values leave {freedoms}: one of many configurations is shown"
         if located.misfit > 1e-2:
             yield f"no configuration is nearer to the given values than {located.misfit:.2g} of their size"
-    if not is_feasible(equation, point, extent):
+    if not is_feasible(equation, point, sizes_of_coordinates(equation)):
         yield "the configuration is outside the feasible set (limits or exclusions)"

@@ -18,6 +18,7 @@ from singsym.kinematics.numerical_rank import numerical_rank
 from singsym.kinematics.sampling import NumericalSystem
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.polynomials import Polynomial
+from singsym.polynomials.sizes import variable_sizes
 
 if TYPE_CHECKING:
     import numpy as np
@@ -58,7 +59,7 @@ class _Problem:
     free: the indices that may move; sizes: of the variables.
     """
 
-    def __init__(self, equation: VelocityEquation, wanted: Sequence[Target], extent: float) -> None:
+    def __init__(self, equation: VelocityEquation, wanted: Sequence[Target]) -> None:
         import numpy as np
 
         ring = equation.space.ring
@@ -68,23 +69,28 @@ class _Problem:
         self.constants = {ring.index(c.name): c.expression for c in ring.constants}
         self.free = [i for i in range(names) if i not in self.constants]
         self.wanted = np.array([float(t.value) for t in wanted])
-        self.sizes = _sizes(equation, extent)
-        sides, values = self._target_sizes()
-        # what is given to be farther away than the mechanism is large makes the extent larger
-        beyond = float(np.max(values / _positive(sides), initial=1.0))
-        self.sizes = _sizes(equation, extent * beyond)
+        self.sizes = sizes_of_coordinates(equation)
+        self.target_sizes = self._fitted_to_targets()
         self.loops = self._system(self.equations)
         self.sides = self._system([t.polynomial for t in wanted])
         self.scales = self._system([t.scale for t in wanted])
         self.loop_sizes = _positive(abs(self.loops.coefficients).sum(axis=1))
-        sides, values = self._target_sizes()
-        self.target_sizes = _positive(sides + values)
 
-    def _target_sizes(self) -> tuple[Floats, Floats]:
-        """How large the polynomial of each target can be, and its value times its scale."""
-        sides = self._system([t.polynomial for t in self.targets]).coefficients
-        scales = self._system([t.scale for t in self.targets]).coefficients
-        return abs(sides).sum(axis=1), abs(self.wanted) * abs(scales).sum(axis=1)
+    def _fitted_to_targets(self) -> Floats:
+        """How large each target is; variables are made larger where it is farther away than they can be."""
+        import numpy as np
+
+        sides = abs(self._system([t.polynomial for t in self.targets]).coefficients).sum(axis=1)
+        scales = abs(self._system([t.scale for t in self.targets]).coefficients).sum(axis=1)
+        values = abs(self.wanted) * scales
+        widest = [1.0] * len(self.sizes)
+        for target, factor in zip(self.targets, (values / _positive(sides)).tolist(), strict=True):
+            for name in target.polynomial.variables:
+                index = target.polynomial.ring.index(name)
+                if index not in self.constants:
+                    widest[index] = max(widest[index], factor)
+        self.sizes = self.sizes * widest
+        return _positive(np.maximum(sides, values))
 
     def _system(self, polynomials: Sequence[Polynomial]) -> NumericalSystem:
         system = NumericalSystem(polynomials, len(self.sizes))
@@ -125,16 +131,16 @@ class _Problem:
 
 
 def locate(
-    equation: VelocityEquation, wanted: Sequence[Target], extent: float, more: bool = False, seed: int = 0
+    equation: VelocityEquation, wanted: Sequence[Target], more: bool = False, seed: int = 0
 ) -> Located | None:
     """The configuration nearest to the targets, from several starts; None where none was reached.
 
-    Of those that are about as near, a feasible one.  extent: a length of the mechanism's size; more: whether
-    coordinates are wanted as mpmath numbers in the precision of `mpmath.mp`: floats where none settle.
+    Of those that are about as near, a feasible one.  more: whether coordinates are wanted as mpmath numbers
+    in the precision of `mpmath.mp`; they are floats where none settle.
     """
     import numpy as np
 
-    problem = _Problem(equation, wanted, extent)
+    problem = _Problem(equation, wanted)
     random = np.random.default_rng(seed)
     ends: list[tuple[float, Floats, Floats]] = []
     for attempt in range(_STARTS):
@@ -148,7 +154,7 @@ def locate(
         return None
     least = min(misfit for misfit, _, _ in ends)
     near = [e for e in ends if e[0] <= max(1e-7, 1.5 * least)]
-    near = [e for e in near if is_feasible(equation, e[2] * problem.sizes, extent)] or near
+    near = [e for e in near if is_feasible(equation, e[2] * problem.sizes, problem.sizes)] or near
     misfit, given, point = min(near, key=lambda e: e[0])
     alike: list[Floats] = [point]
     for _, _, other in near:
@@ -168,28 +174,19 @@ def locate(
     return (_refined(problem, found) or found) if more else found
 
 
-def size(equation: VelocityEquation) -> float:
-    """A length to compare with: the root of the largest constant term of the loop equations; 1 without any.
+def is_feasible(equation: VelocityEquation, point: Floats, sizes: Floats) -> bool:
+    """Whether limits and exclusions allow a point, in floats, up to 1e-9 of what their terms can be.
 
-    >>> from singsym.kinematics.velocity import velocity_equation
-    >>> from singsym.mechanism import load
-    >>> size(velocity_equation(load("slider-crank")))
-    3.0
+    sizes: of the coordinates.
     """
-    constants = [abs(e.constant) for e in equation.space.equations]
-    return max((float(int(c.p) / int(c.q)) ** 0.5 for c in constants if c), default=1.0)
-
-
-def is_feasible(equation: VelocityEquation, point: Floats, extent: float) -> bool:
-    """Whether limits and exclusions allow a point, in floats, up to 1e-9 of what their terms can be."""
     import numpy as np
 
     space = equation.space
-    sizes = np.maximum(abs(point), _sizes(equation, extent))
+    largest = np.maximum(abs(point), sizes)
 
     def relative(polynomials: Sequence[Polynomial]) -> Floats:
         system = NumericalSystem(polynomials, len(point))
-        most = abs(system.coefficients) @ (sizes**system.exponents).prod(axis=1)
+        most = abs(system.coefficients) @ (largest**system.exponents).prod(axis=1)
         return system.values(point) / _positive(most)
 
     if (relative((*space.positive, *space.nonnegative)) < -1e-9).any():
@@ -203,19 +200,13 @@ def _positive(sizes: Floats) -> Floats:
     return sizes
 
 
-def _sizes(equation: VelocityEquation, extent: float) -> Floats:
-    """How large each variable can be: by an equation that bounds a sum of squares, else the extent."""
+def sizes_of_coordinates(equation: VelocityEquation) -> Floats:
+    """How large each variable is, about; 1 for constants."""
     import numpy as np
 
-    ring = equation.space.ring
-    found = np.full(len(ring.names), extent)
-    for polynomial in equation.space.equations:
-        terms = {tuple(map(int, m)): c for m, c in polynomial.terms()}
-        bound = -terms.pop((0,) * len(ring.names), 0)
-        if bound and all(sum(m) == max(m) == 2 and c * bound > 0 for m, c in terms.items()):
-            for exponents, c in terms.items():
-                ratio = bound / c
-                found[exponents.index(2)] = (int(ratio.p) / int(ratio.q)) ** 0.5
+    space, ring = equation.space, equation.space.ring
+    groups = (space.equations, space.positive, space.nonnegative, *space.exclusions, *space.points.values())
+    found = np.array(variable_sizes(ring, (p for group in groups for p in group)))
     found[[ring.index(c.name) for c in ring.constants]] = 1.0
     return found
 
