@@ -85,7 +85,9 @@ class Given:
 
 def _digits(number: sympy.Rational) -> int:
     """The significant digits of a number, or of as many degrees; 0 for a fraction that is no decimal."""
-    below, places = int((number * 180 if number.q % 3 == 0 else number).q), 0
+    if number.q % 3 == 0:
+        number = number * 180
+    below, places = int(number.q), 0
     for prime in (2, 5):
         power = 0
         while below % prime == 0:
