@@ -66,13 +66,14 @@ def numerical_codimension(system: RealSystem) -> int | None:
     """
     import numpy
 
-    from singsym.varieties.real.search import Compiled, numerical_rank
+    from singsym.kinematics.numerical_rank import numerical_rank
+    from singsym.varieties.real.search import Compiled
 
     points = numerical_points(system, 1)
     if not points:
         return None
     _, slope = Compiled(system.closed_equations, system.ring)(numpy.array(points[0]))
-    return numerical_rank(slope)
+    return numerical_rank(slope, 1e-7).rank
 
 
 def is_off(point: tuple[float, ...], group: tuple[Polynomial, ...]) -> bool:

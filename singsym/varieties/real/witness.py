@@ -230,12 +230,13 @@ def frozen_values(
 
     A coordinate of a unit vector is held with the other one, at a rational point of the circle.
     """
-    from singsym.varieties.real.search import Compiled, dependent_columns, gauss_newton, numerical_rank
+    from singsym.kinematics.numerical_rank import numerical_rank
+    from singsym.varieties.real.search import Compiled, dependent_columns, gauss_newton
 
     ring = system.ring
     compiled = Compiled(equations, ring)
     _, slope = compiled(sample)
-    rank = numerical_rank(slope) if dimension is None else len(ring.names) - dimension
+    rank = numerical_rank(slope, 1e-7).rank if dimension is None else len(ring.names) - dimension
     dependent = dependent_columns(slope, rank, [ring.index(c.name) for c in ring.constants])
     free = [k for k in range(len(ring.names)) if k not in dependent]
     circles = [pair for pair in unit_circles(equations) if any(ring.index(name) in free for name in pair)]
