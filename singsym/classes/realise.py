@@ -70,6 +70,10 @@ class RealTask:
     memory_mb: int | None = None
     known: int | None = None
 
+    def unfinished(self, reason: str) -> Realised:
+        """A piece for each image of the stratum, undecided for this reason."""
+        return Realised(tuple(_images(_piece(self, reason), (), self)))
+
 
 @dataclass(frozen=True)
 class CurveTask:
@@ -78,6 +82,10 @@ class CurveTask:
     equations: Equations
     seconds: float | None = None
     memory_mb: int | None = None
+
+    def unfinished(self, reason: str) -> Counted:
+        """No number, for this reason."""
+        return Counted(None, reason)
 
 
 @dataclass(frozen=True)
@@ -111,13 +119,7 @@ Points = tuple[RealPoint | BoxPoint, ...]
 def realise(task: RealTask) -> Realised:
     """The real side of one stratum and of its images: the task that workers run."""
     stratum = task.found.stratum
-    piece = Piece(
-        task.found.path,
-        stratum.equations,
-        stratum.loci,
-        stratum.defects,
-        Verdict.undecided("not examined"),
-    )
+    piece = _piece(task, "not examined")
     exclusions = (*task.feasible.exclusions, *stratum.loci)
     system = replace(task.feasible, equations=stratum.equations, exclusions=exclusions)
     points: Points = ()
@@ -137,6 +139,13 @@ def realise(task: RealTask) -> Realised:
         if task.known is not None:
             piece = _bounded(piece, system, task.known, LONG_BOUND_SECONDS)
     return Realised(tuple(_images(piece, points, task)))
+
+
+def _piece(task: RealTask, reason: str) -> Piece:
+    """What a stratum comes to as long as nothing more is known of it, for this reason."""
+    stratum = task.found.stratum
+    verdict = Verdict.undecided(reason)
+    return Piece(task.found.path, stratum.equations, stratum.loci, stratum.defects, verdict)
 
 
 def _realised(piece: Piece, system: RealSystem, stratum: Stratum) -> tuple[Piece, Points]:

@@ -72,7 +72,7 @@ class Piece:
     @property
     def provisional(self) -> bool:
         """Whether a larger budget could say more."""
-        return self.verdict.is_undecided
+        return self.dimension is None or self.verdict.certainty in ("modular", "undecided")
 
 
 @dataclass(frozen=True)
