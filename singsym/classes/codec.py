@@ -9,18 +9,15 @@ from __future__ import annotations
 
 import dataclasses
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from enum import Enum
-from fractions import Fraction
 from functools import cache, cached_property
 from types import NoneType, UnionType
 from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 
-from flint import fmpq, fmpz
-
-from singsym.polynomials import Polynomial, Ring
+from singsym.classes.forms import FORMS
 
 _WORD = 1 << 63
 """Integers from here on are written in hexadecimal, which takes time linear in their length."""
@@ -36,6 +33,7 @@ def encode(value: Any, hint: Any) -> dict[str, Any]:
     Raises `Mismatch` where the value, or a part of it, is of another type, and `TypeError` for a type that
     has no codec.
 
+    >>> from fractions import Fraction
     >>> encode((Fraction(1, 2), None), tuple[Fraction, int | None])
     {'shared': [(1, 2)], 'value': (0, None)}
     """
@@ -47,6 +45,7 @@ def encode(value: Any, hint: Any) -> dict[str, Any]:
 def decode(data: Any, hint: Any) -> Any:
     """The value of the type `hint` that was encoded; raises `Mismatch`, or what the type itself raises.
 
+    >>> from fractions import Fraction
     >>> decode({"shared": [[1, 2]], "value": [0, None]}, tuple[Fraction, int | None])
     (Fraction(1, 2), None)
     >>> decode({"shared": [], "value": "1"}, int)
@@ -122,7 +121,7 @@ def codec(hint: Any) -> Codec:
         return _Exact(NoneType)
     if hint in _EXACT:
         return _EXACT[hint]
-    if hint in _FORMS:
+    if hint in FORMS:
         return _Formed(hint)
     if origin is Literal:
         return _Choice(arguments)
@@ -363,15 +362,6 @@ class _Record(Shared):
 
 
 @dataclass(frozen=True)
-class _Form:
-    """A type's plain form: the type hint of that, how it is taken apart and how it is made."""
-
-    hint: Any
-    plain: Callable[[Any], Any]
-    made: Callable[[Any], Any]
-
-
-@dataclass(frozen=True)
 class _Formed(Shared):
     """A type that is written in its plain form; only what has exactly this form again is read."""
 
@@ -380,30 +370,13 @@ class _Formed(Shared):
     def take_apart(self, value: Any, writer: Writer) -> Any:
         if type(value) is not self.type:
             raise Mismatch(f"{value!r} is no {self.type.__name__}")
-        form = _FORMS[self.type]
+        form = FORMS[self.type]
         return codec(form.hint).write(form.plain(value), writer)
 
     def put_together(self, data: Any, reader: Reader) -> Any:
-        form = _FORMS[self.type]
+        form = FORMS[self.type]
         plain = codec(form.hint).read(data, reader)
         value = form.made(plain)
         if form.plain(value) != plain:
             raise Mismatch(f"{plain!r} is not how a {self.type.__name__} is written")
         return value
-
-
-def _terms(polynomial: Polynomial) -> tuple[Any, ...]:
-    return polynomial.ring, tuple((tuple(map(int, m)), int(c.p), int(c.q)) for m, c in polynomial.terms())
-
-
-def _polynomial(plain: tuple[Ring, tuple[tuple[tuple[int, ...], int, int], ...]]) -> Polynomial:
-    ring, terms = plain
-    return ring.from_dict({m: fmpq(p, q) for m, p, q in terms})
-
-
-_FORMS: dict[Any, _Form] = {
-    Fraction: _Form(tuple[int, int], lambda q: (q.numerator, q.denominator), lambda pair: Fraction(*pair)),
-    fmpq: _Form(tuple[int, int], lambda q: (int(q.p), int(q.q)), lambda pair: fmpq(*pair)),
-    fmpz: _Form(int, int, fmpz),
-    Polynomial: _Form(tuple[Ring, tuple[tuple[tuple[int, ...], int, int], ...]], _terms, _polynomial),
-}

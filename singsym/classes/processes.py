@@ -117,7 +117,7 @@ class _Worker(threading.Thread):
         """End the process at once, from another thread."""
         with _lock:
             self.stopped = True
-            if self.process is not None and self.process.pid is not None:
+            if self.process is not None:
                 self.process.kill()
 
     def _result(self, message: bytes) -> Any:
@@ -149,10 +149,11 @@ class _Worker(threading.Thread):
         with _lock:
             if self.stopped:
                 raise EOFError
-            self.connection, other = context.Pipe()
-            self.process = context.Process(target=_serve, args=(other,), daemon=True)
-            self.process.start()
-            other.close()
+            connection, other = context.Pipe()
+            process = context.Process(target=_serve, args=(other,), daemon=True)
+            with other:
+                process.start()
+            self.process, self.connection = process, connection
         try:
             self.connection.recv_bytes()
         except EOFError:
@@ -176,7 +177,7 @@ class _Worker(threading.Thread):
     def _wait(self) -> int | None:
         """The exit code of the process, whose connection is closed; None where there was none."""
         with _lock:
-            if self.process is None or self.process.pid is None:
+            if self.process is None:
                 return None
             self.process.join(_PARTING_SECONDS)
             self.process.kill()
@@ -206,7 +207,7 @@ def _answer(message: bytes) -> bytes:
 
 
 def _end_with_parent() -> None:
-    """See to it that this process ends when its parent has: on Linux even in the midst of a library's call."""
+    """See to it that this process ends when its parent has, on Linux even in the midst of a long call."""
     parent = multiprocessing.parent_process()
     if parent is None:
         return

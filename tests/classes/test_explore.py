@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
@@ -137,10 +138,10 @@ def test_second_run_is_read_from_the_cache(
 def _named(function: Callable[..., object], known: Callable[..., object]) -> Callable[..., object]:
     """A function that the cache takes for another one."""
 
+    @functools.wraps(known)
     def stand_in(*arguments: object) -> object:
         return function(*arguments)
 
-    stand_in.__module__, stand_in.__qualname__ = known.__module__, known.__qualname__
     return stand_in
 
 
@@ -164,9 +165,9 @@ def test_an_interrupted_run_is_taken_up(
     monkeypatch.setenv("SINGSYM_CACHE", str(tmp_path))
     with Interrupting(after=2) as pool, pytest.raises(KeyboardInterrupt):
         classify(load("change-point"), executor=pool)
-    early = set(tmp_path.glob("*.pickle"))
+    early = set(tmp_path.glob("*.json.gz"))
     assert plain(classify(load("change-point"))) == reference
-    assert early < set(tmp_path.glob("*.pickle"))
+    assert early < set(tmp_path.glob("*.json.gz"))
 
 
 def test_limits_leave_configurations_out() -> None:
