@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import BrokenExecutor, ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 
@@ -18,6 +18,7 @@ from singsym.classes.realise import Names, RealTask, realise
 from singsym.classes.result import Classification
 from singsym.classes.search import search
 from singsym.classes.strata import RankProblem
+from singsym.classes.types import feasible_classes
 from singsym.classes.work import Runner
 from singsym.mechanism import load
 from singsym.polynomials import PolynomialMatrix, Ring
@@ -180,3 +181,27 @@ def test_limits_leave_configurations_out() -> None:
         for name, result in (("limited", everything), ("unlimited", unlimited))
     }
     assert counts == {"limited": [2], "unlimited": [4]}
+
+
+class Broken(ThreadPoolExecutor):
+    """An executor whose workers die over every task."""
+
+    def submit(self, *arguments: object, **named: object):  # type: ignore[no-untyped-def,override]
+        return super().submit(self._die)
+
+    def _die(self) -> None:
+        raise BrokenExecutor("all workers died")
+
+
+def test_workers_that_die_leave_undecided_what_is_not_known_without_them() -> None:
+    """(1) occurs in fact; a class is "no" only where the four ranks forbid it."""
+    with Broken(1) as pool:
+        result = classify(load("slider-crank"), executor=pool, cache=False)
+    possible = [c for c in result.classes if "impossible" not in c.verdict.reason]
+    assert len(possible) == len(feasible_classes(1))
+    for found in possible:
+        assert found.verdict.is_undecided
+        assert "all workers died" in found.verdict.reason
+    for locus in result.loci:
+        assert locus.verdict.is_undecided
+        assert locus.verdict.reason == "all workers died"
