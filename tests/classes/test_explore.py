@@ -13,7 +13,7 @@ import pytest
 from singsym.classes import classify as module
 from singsym.classes import explore as explore_module
 from singsym.classes.classify import classify
-from singsym.classes.explore import Branch, explore, split_product
+from singsym.classes.explore import Branch, Explored, explore, split_product
 from singsym.classes.realise import Names, RealTask, realise
 from singsym.classes.result import Classification
 from singsym.classes.search import search
@@ -205,3 +205,9 @@ def test_workers_that_die_leave_undecided_what_is_not_known_without_them() -> No
     for locus in result.loci:
         assert locus.verdict.is_undecided
         assert locus.verdict.reason == "all workers died"
+
+
+def test_what_more_time_could_say_or_prove_is_provisional() -> None:
+    assert not Explored().provisional
+    assert Explored(undecided=("no time",)).provisional
+    assert Explored(certainty="modular").provisional
