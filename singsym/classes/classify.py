@@ -12,8 +12,10 @@ from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+from singsym.classes.cache import user_cache
 from singsym.classes.explore import Branch, Found
 from singsym.classes.extent import EMPTY, Extent, union
+from singsym.classes.processes import processes
 from singsym.classes.realise import Counted, CurveTask, Names, Realised, RealTask, count, realise
 from singsym.classes.result import Classification, ClassResult, Locus, Piece
 from singsym.classes.search import Exploration, Loci, SingularLoci, search
@@ -22,7 +24,7 @@ from singsym.classes.steps import excluded_in, found_in
 from singsym.classes.strata import RankProblem, Stratum
 from singsym.classes.symmetry import reflections
 from singsym.classes.types import Defects, SingularityClass, SingularityType, feasible_classes
-from singsym.classes.work import Cache, Runner, cache_folder, processes
+from singsym.classes.work import Runner
 from singsym.elimination import engines
 from singsym.elimination.budget import Budget
 from singsym.elimination.conditions import Conditions, Factor, conditions, polynomial_latex
@@ -103,7 +105,7 @@ def classify_equation(
             executor = processes(workers)
             if executor is not None:
                 stack.enter_context(executor)
-        runner = Runner(executor, Cache(cache_folder()) if cache else None)
+        runner = Runner(executor, user_cache() if cache else None)
         work = _Work(mechanism, conditions(equation, reduce(equation)), runner, limits or Limits())
         return work.classification(started)
 

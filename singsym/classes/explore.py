@@ -68,6 +68,10 @@ class Branch:
     seconds: float | None = None
     memory_mb: int | None = None
 
+    def unfinished(self, reason: str) -> Explored:
+        """Nothing found and nothing to follow, for this reason."""
+        return Explored(undecided=(reason,))
+
     @cached_property
     def kept(self) -> tuple[Reflection, ...]:
         """The symmetries of this part."""
@@ -119,7 +123,7 @@ class Explored:
     @property
     def provisional(self) -> bool:
         """Whether a larger budget could say more."""
-        return bool(self.undecided)
+        return bool(self.undecided) or self.certainty != "proven"
 
 
 def explore(branch: Branch) -> Explored:

@@ -72,6 +72,10 @@ class RealTask:
     most: int | None = None
     known: int | None = None
 
+    def unfinished(self, reason: str) -> Realised:
+        """A piece for each image of the stratum, undecided for this reason."""
+        return Realised(tuple(_images(_piece(self, reason), (), self)))
+
 
 @dataclass(frozen=True)
 class CurveTask:
@@ -81,6 +85,10 @@ class CurveTask:
     exclusions: tuple[Equations, ...] = ()
     seconds: float | None = None
     memory_mb: int | None = None
+
+    def unfinished(self, reason: str) -> Counted:
+        """No number, for this reason."""
+        return Counted(None, reason)
 
 
 @dataclass(frozen=True)
@@ -114,14 +122,7 @@ Points = tuple[RealPoint | BoxPoint, ...]
 def realise(task: RealTask) -> Realised:
     """The real side of one stratum and of its images: the task that workers run."""
     stratum = task.found.stratum
-    piece = Piece(
-        task.found.path,
-        stratum.equations,
-        stratum.loci,
-        stratum.defects,
-        Verdict.undecided("not examined"),
-        Extent(-1, task.most),
-    )
+    piece = _piece(task, "not examined")
     exclusions = (*task.feasible.exclusions, *stratum.loci)
     system = replace(task.feasible, equations=stratum.equations, exclusions=exclusions)
     points: Points = ()
@@ -140,6 +141,13 @@ def realise(task: RealTask) -> Realised:
         extent = replace(piece.extent, open=str(reason))
         piece = replace(piece, verdict=Verdict.undecided(str(reason)), extent=extent)
     return Realised(tuple(_images(piece, points, task)))
+
+
+def _piece(task: RealTask, reason: str) -> Piece:
+    """What a stratum comes to as long as nothing more is known of it, for this reason."""
+    stratum = task.found.stratum
+    verdict, extent = Verdict.undecided(reason), Extent(-1, task.most, open=reason)
+    return Piece(task.found.path, stratum.equations, stratum.loci, stratum.defects, verdict, extent)
 
 
 def _realised(piece: Piece, system: RealSystem, stratum: Stratum) -> tuple[Piece, Points]:

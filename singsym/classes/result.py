@@ -77,11 +77,9 @@ class Piece:
     @property
     def provisional(self) -> bool:
         """Whether a larger budget could say more."""
-        return (
-            self.verdict.is_undecided
-            or self.dimension is None
-            or (self.dimension == 0 and self.points is None)
-        )
+        uncounted = self.dimension == 0 and self.points is None
+        rests = "modular" in (self.verdict.certainty, self.extent.bounded)
+        return self.verdict.is_undecided or self.dimension is None or uncounted or rests
 
 
 @dataclass(frozen=True)

@@ -87,9 +87,6 @@ def search(
     unexplored: list[tuple[Branch, str]] = []
     modular: list[tuple[Branch, Explored]] = []
     for branch, explored in runner.grow(explore, first, attrgetter("following"), "strata", whole):
-        if explored is None:
-            unexplored.append((branch, f"the budget of {whole.seconds:g} s for the search is used up"))
-            continue
         if explored.certainty != "proven":
             modular.append((branch, explored))
         unexplored += [(branch, reason) for reason in explored.undecided]
@@ -112,15 +109,15 @@ def _proven(
     known: list[Certainty] = []
     types: dict[SingularityType, None] = {}
     for _, part in runner.grow(explore_patiently, empty, attrgetter("following"), stage, budget):
-        if part is None or part.undecided:
+        if part.undecided:
             known.append("modular")
         else:
             known.append(part.certainty)
             types |= dict.fromkeys(f.stratum.defects.types for f in part.found)
-    seconds = runner.map_within(explore_patiently, [branch for branch, _ in others], stage, budget)
+    seconds = runner.map(explore_patiently, [branch for branch, _ in others], stage, budget)
     for (_, first), second in zip(others, seconds, strict=True):
-        same = second is not None and replace(second, certainty=first.certainty) == first
-        known.append(second.certainty if second is not None and same else first.certainty)
+        same = replace(second, certainty=first.certainty) == first
+        known.append(second.certainty if same else first.certainty)
     return weakest(*known), tuple(types)
 
 

@@ -10,11 +10,13 @@ from concurrent.futures import Executor
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
 
+from singsym.classes.cache import user_cache
 from singsym.classes.classify import Limits, classify_equation
+from singsym.classes.processes import processes
 from singsym.classes.realise import Names, configuration
 from singsym.classes.result import Classification, Configuration, Equations, Piece
 from singsym.classes.types import SingularityType
-from singsym.classes.work import Cache, Runner, cache_folder, processes
+from singsym.classes.work import Runner
 from singsym.elimination.budget import Budget, Undecided
 from singsym.elimination.conditions import Condition, Conditions, conditions
 from singsym.elimination.ideal import Ideal
@@ -123,6 +125,10 @@ class LocusTask:
     seconds: float | None = None
     memory_mb: int | None = None
 
+    def unfinished(self, reason: str) -> Solved:
+        """No piece, for this reason."""
+        return Solved((), reason)
+
 
 @dataclass(frozen=True)
 class Solved:
@@ -134,7 +140,7 @@ class Solved:
     @property
     def provisional(self) -> bool:
         """Whether a larger budget could say more."""
-        return bool(self.doubt)
+        return bool(self.doubt) or any(piece.verdict.is_undecided for piece in self.pieces)
 
 
 def solve(
@@ -184,7 +190,7 @@ def solve_equation(
             executor = processes(workers)
             if executor is not None:
                 stack.enter_context(executor)
-        runner = Runner(executor, Cache(cache_folder()) if cache else None)
+        runner = Runner(executor, user_cache() if cache else None)
         whole: Classification | None = None
         results = []
         for condition in asked:

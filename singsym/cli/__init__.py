@@ -1,13 +1,18 @@
 """The command `singsym`: every artefact on stdout, everything else on stderr.
 
-Source: singsym's own; exit codes: 0 decided, 3 something undecided, 2 usage or bad input, 130 interrupted.
+Source: singsym's own; exit codes: 0 decided, 3 something undecided, 2 usage or bad input, 130 interrupted,
+143 terminated.
 """
 
 from __future__ import annotations
 
 import os
+import signal
 import sys
-from collections.abc import Sequence
+import threading
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from types import FrameType
 
 from singsym.cli.screen import UserError, say
 
@@ -28,7 +33,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         parser().print_help()
         return USAGE
     try:
-        code: int = chosen.run(chosen)
+        with _ended_in_order():
+            code: int = chosen.run(chosen)
         sys.stdout.flush()
     except UserError as error:
         say(f"singsym {chosen.command}: {error}")
@@ -42,3 +48,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
         say(f"singsym {chosen.command}: interrupted{during}{chosen.on_interrupt}")
         return INTERRUPTED
     return code
+
+
+@contextmanager
+def _ended_in_order() -> Iterator[None]:
+    """SIGTERM ends the work inside as an exception does, which leaves no processes and files behind."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+
+    def end(number: int, frame: FrameType | None) -> None:
+        raise SystemExit(128 + number)
+
+    before = signal.signal(signal.SIGTERM, end)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)

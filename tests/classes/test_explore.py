@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import BrokenExecutor, ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,11 +13,12 @@ import pytest
 from singsym.classes import classify as module
 from singsym.classes import explore as explore_module
 from singsym.classes.classify import classify
-from singsym.classes.explore import Branch, explore, split_product
+from singsym.classes.explore import Branch, Explored, explore, split_product
 from singsym.classes.realise import Names, RealTask, realise
 from singsym.classes.result import Classification
 from singsym.classes.search import search
 from singsym.classes.strata import RankProblem
+from singsym.classes.types import feasible_classes
 from singsym.classes.work import Runner
 from singsym.mechanism import load
 from singsym.polynomials import PolynomialMatrix, Ring
@@ -137,10 +139,10 @@ def test_second_run_is_read_from_the_cache(
 def _named(function: Callable[..., object], known: Callable[..., object]) -> Callable[..., object]:
     """A function that the cache takes for another one."""
 
+    @functools.wraps(known)
     def stand_in(*arguments: object) -> object:
         return function(*arguments)
 
-    stand_in.__module__, stand_in.__qualname__ = known.__module__, known.__qualname__
     return stand_in
 
 
@@ -164,9 +166,9 @@ def test_an_interrupted_run_is_taken_up(
     monkeypatch.setenv("SINGSYM_CACHE", str(tmp_path))
     with Interrupting(after=2) as pool, pytest.raises(KeyboardInterrupt):
         classify(load("change-point"), executor=pool)
-    early = set(tmp_path.glob("*.pickle"))
+    early = set(tmp_path.glob("*.json.gz"))
     assert plain(classify(load("change-point"))) == reference
-    assert early < set(tmp_path.glob("*.pickle"))
+    assert early < set(tmp_path.glob("*.json.gz"))
 
 
 def test_limits_leave_configurations_out() -> None:
@@ -179,3 +181,33 @@ def test_limits_leave_configurations_out() -> None:
         for name, result in (("limited", everything), ("unlimited", unlimited))
     }
     assert counts == {"limited": [2], "unlimited": [4]}
+
+
+class Broken(ThreadPoolExecutor):
+    """An executor whose workers die over every task."""
+
+    def submit(self, *arguments: object, **named: object):  # type: ignore[no-untyped-def,override]
+        return super().submit(self._die)
+
+    def _die(self) -> None:
+        raise BrokenExecutor("all workers died")
+
+
+def test_workers_that_die_leave_undecided_what_is_not_known_without_them() -> None:
+    """(1) occurs in fact; a class is "no" only where the four ranks forbid it."""
+    with Broken(1) as pool:
+        result = classify(load("slider-crank"), executor=pool, cache=False)
+    possible = [c for c in result.classes if "impossible" not in c.verdict.reason]
+    assert len(possible) == len(feasible_classes(1))
+    for found in possible:
+        assert found.verdict.is_undecided
+        assert "all workers died" in found.verdict.reason
+    for locus in result.loci:
+        assert locus.verdict.is_undecided
+        assert locus.verdict.reason == "all workers died"
+
+
+def test_what_more_time_could_say_or_prove_is_provisional() -> None:
+    assert not Explored().provisional
+    assert Explored(undecided=("no time",)).provisional
+    assert Explored(certainty="modular").provisional

@@ -1,9 +1,12 @@
 """Solution sets of conditions against those of the paper's section 3.3 and against each other."""
 
+from dataclasses import replace
+
 import pytest
 
-from singsym.classes.solve import HOLDS, solve
+from singsym.classes.solve import HOLDS, SolutionPiece, Solved, solve
 from singsym.classes.types import feasible_defects
+from singsym.elimination.verdict import Verdict
 from singsym.mechanism import load
 
 
@@ -35,3 +38,9 @@ def test_sets_are_sets():
 def test_an_unknown_condition():
     with pytest.raises(KeyError, match="viii"):
         solve(load("fourbar"), "ix")
+
+
+def test_a_part_with_an_undecided_piece_is_provisional() -> None:
+    piece = SolutionPiece((), (), (), Verdict.yes())
+    assert not Solved((piece,)).provisional
+    assert Solved((piece, replace(piece, verdict=Verdict.undecided("no time")))).provisional

@@ -127,16 +127,22 @@ class MsolveEngine:
         budget: Budget,
         characteristic: int = 0,
     ) -> str:
-        program = self.path()
-        if not program:
+        if not self.available():
             raise EngineUnavailable(f"msolve is not there: {HOW_TO_GET}")
         budget.check("msolve")
         header = ",".join(f"x{k}" for k in range(1, len(used) + 1))
         lines = ",\n".join(write(p, used, characteristic) for p in generators)
+        try:
+            return self._conversation(f"{header}\n{characteristic}\n{lines}\n", options, budget)
+        except (OSError, UnicodeError) as error:
+            raise EngineFailure(self.name, f"files could not be written or read: {error}") from None
+
+    def _conversation(self, text: str, options: Sequence[str], budget: Budget) -> str:
+        """What the program writes about a text."""
         with tempfile.TemporaryDirectory(prefix="singsym-") as directory:
             source, target = Path(directory, "in.ms"), Path(directory, "out.ms")
-            source.write_text(f"{header}\n{characteristic}\n{lines}\n")
-            command = [program, "-f", str(source), "-o", str(target), *options]
+            source.write_text(text)
+            command = [self.path(), "-f", str(source), "-o", str(target), *options]
             child = Child(self.name, command)
             child.end_input()
             child.wait_exit(budget)
