@@ -24,7 +24,8 @@ from singsym.classes.symmetry import reflections
 from singsym.classes.types import Defects, SingularityClass, SingularityType, feasible_classes
 from singsym.classes.work import Cache, Runner, cache_folder, processes
 from singsym.elimination import engines
-from singsym.elimination.budget import Budget, Undecided
+from singsym.elimination.attempts import attempt
+from singsym.elimination.budget import Budget
 from singsym.elimination.conditions import Conditions, Factor, conditions, polynomial_latex
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.verdict import Certainty, Verdict, weakest
@@ -43,7 +44,8 @@ FIRST_SECONDS, SECOND_SECONDS = 0.5, 2.0
 class Limits:
     """What a classification may use, None without limit.
 
-    seconds, memory_mb: of each task (a branch, a stratum, a curve); total: seconds of the search for strata.
+    seconds, memory_mb: of work (see `work`) and memory for each task (a branch, a stratum, a curve); total:
+    seconds of time for the search for strata.
     """
 
     seconds: float | None = 60.0
@@ -348,11 +350,9 @@ def _vanishes(polynomial: Polynomial, piece: Piece) -> bool:
     places = [[float(w.coordinates[name]) for name in polynomial.ring.names] for w in piece.witnesses]
     if any(abs(polynomial.evaluate(x)) > 1e-6 for x in places):
         return False
-    try:
-        with Budget(MEMBERSHIP_SECONDS):
-            return Ideal(polynomial.ring, piece.basis).contains(polynomial)
-    except Undecided:
-        return False
+    with attempt("membership", MEMBERSHIP_SECONDS):
+        return Ideal(polynomial.ring, piece.basis).contains(polynomial)
+    return False
 
 
 def _counted(pieces: Sequence[Piece]) -> int | None:

@@ -18,7 +18,8 @@ from singsym.classes.presence import is_proven_empty, restricted
 from singsym.classes.result import Configuration, Equations, Piece
 from singsym.classes.strata import Stratum
 from singsym.classes.symmetry import image
-from singsym.elimination.budget import Budget, Undecided, current
+from singsym.elimination.attempts import attempt
+from singsym.elimination.budget import Budget, Undecided
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.verdict import Verdict, certainties, weakest
 from singsym.kinematics.placement import Coordinates, JointValue
@@ -127,7 +128,7 @@ def realise(task: RealTask) -> Realised:
             verdict = Verdict.undecided(f"only a dimension above {task.known} would matter")
             return Realised(tuple(_images(replace(piece, verdict=verdict), points, task)))
     try:
-        with Budget(task.seconds, task.memory_mb), certainties() as seen:
+        with Budget(work=task.seconds, memory_mb=task.memory_mb), certainties() as seen:
             piece, points = _realised(piece, system, stratum)
         if piece.verdict.is_no:
             verdict = replace(piece.verdict, certainty=weakest(piece.verdict.certainty, *seen))
@@ -175,8 +176,7 @@ def _given(piece: Piece, system: RealSystem, elsewhere: tuple[Equations, ...]) -
     """A set given by equations: where their gradients are independent at a point, a manifold near it."""
     dimension = len(system.ring.names) - len(system.closed_equations)
     if dimension <= 0:
-        left = current().remaining()
-        with suppress(NotZeroDimensional, Undecided), current().part(None if left is None else left / 3):
+        with suppress(NotZeroDimensional), attempt("finitely many points", share=1 / 3):
             return _finite(piece, real_points(piece.basis), system, elsewhere)
     codimension = numerical_codimension(system)
     patch = unsplit(system.closed_equations, system.ring)
@@ -228,10 +228,10 @@ def _bounded(piece: Piece, system: RealSystem, known: int, seconds: float) -> Pi
     chart, beside = _charted(system, unsplit(system.closed_equations, system.ring))
     equations = chart.system.closed_equations
     with certainties() as seen:
-        with suppress(Undecided), Budget(seconds * DIMENSION_SHARE):
+        with attempt("a complex dimension", seconds * DIMENSION_SHARE):
             at_most = Ideal(system.ring, equations).dimension - beside
             return replace(piece, at_most=at_most, bounded=weakest(*seen))
-        with suppress(Undecided), Budget(seconds):
+        with attempt("a bound of a dimension", seconds):
             if seems_at_most(system.ring, equations, known + beside):
                 return replace(piece, at_most=known, bounded="modular")
     return piece
@@ -239,12 +239,9 @@ def _bounded(piece: Piece, system: RealSystem, known: int, seconds: float) -> Pi
 
 def _cut(system: RealSystem) -> Cut | None:
     """The dimension by cuts where it is found in time."""
-    try:
-        with current().part(DIMENSION_SECONDS):
-            return dimension_by_cuts(system)
-    except Undecided:
-        current().check("the dimension of a set")
-        return None
+    with attempt("the dimension of a set", DIMENSION_SECONDS):
+        return dimension_by_cuts(system)
+    return None
 
 
 def _lies_in(point: RealPoint, loci: tuple[Equations, ...]) -> bool:
@@ -277,7 +274,7 @@ def count(task: CurveTask) -> Counted:
     They are not counted where the complex zeros are no curve, as of x^2 + y^2 = 0 in space.
     """
     try:
-        with Budget(task.seconds, task.memory_mb):
+        with Budget(work=task.seconds, memory_mb=task.memory_mb):
             curve = real_curve(task.equations)
     except NotACurve as reason:
         return Counted(None, str(reason))

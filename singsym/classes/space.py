@@ -15,11 +15,10 @@ more tangents than n: the space is singular exactly in the configurations with I
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import suppress
 
 from singsym.classes.result import ClassResult, Piece, SpacePiece
 from singsym.classes.types import SingularityType
-from singsym.elimination.budget import Budget, Undecided
+from singsym.elimination.attempts import attempt
 from singsym.elimination.conditions import Conditions
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.verdict import unnoted, weakest
@@ -73,7 +72,7 @@ def _is_complete_intersection(conditions: Conditions) -> bool:
     if len(equation.matrix.rows) != equation.N:
         return False
     usual = equation.n + len(space.parameters)
-    with suppress(Undecided), Budget(SECONDS), unnoted() as seen:
+    with attempt("the dimensions of the loop equations", SECONDS), unnoted() as seen:
         if Ideal(space.ring, space.equations).dimension > usual:
             return False
         for label in ("5", "4"):

@@ -71,6 +71,11 @@ def chaos(seed: int, probability: float) -> Iterator[Chaos]:
         _reigning = outer
 
 
+def reigns() -> bool:
+    """Whether answers are withheld here at all."""
+    return _reigning is not None
+
+
 def strikes() -> bool:
     """Whether whoever asks at this door goes away without an answer: never, but in tests."""
     return _reigning is not None and _reigning.strikes()

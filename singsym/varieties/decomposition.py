@@ -10,9 +10,11 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
 from singsym.elimination import engines
-from singsym.elimination.budget import Budget, Undecided, current
+from singsym.elimination.attempts import attempt
+from singsym.elimination.budget import Budget, current
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.memo import remember
+from singsym.elimination.patience import SPLITTING
 from singsym.elimination.progress import Sink, report, to
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.irreducibility import Splitting, analyse, independent_variables, leading_exponents
@@ -24,7 +26,6 @@ from singsym.varieties.splitting import (
     used_ring,
 )
 
-_PROOF_SECONDS = 10.0
 _LONGEST_CUT = 300
 """An ideal is not taken apart along a longer polynomial, which would take too long to factor."""
 
@@ -300,21 +301,16 @@ def _by_eliminant(system: _System, ideal: Ideal, dimension: int) -> tuple[Compon
 
 
 def _analysed(ideal: Ideal, unmixed: bool) -> Splitting:
-    try:
-        with current().part(_PROOF_SECONDS):
-            return analyse(ideal, unmixed=unmixed)
-    except Undecided:
-        current().check("decomposition")
-        return Splitting()
+    with attempt("decomposition", SPLITTING.work):
+        return analyse(ideal, unmixed=unmixed)
+    return Splitting()
 
 
 def _by_engine(ideal: Ideal) -> tuple[Component, ...]:
     """The minimal primes by Singular where it is present and quick, else nothing."""
     if not engines.has("singular"):
         return ()
-    try:
-        primes = ideal.minimal_primes(current().part(_PROOF_SECONDS))
+    with attempt("decomposition", SPLITTING.work):
+        primes = ideal.minimal_primes()
         return prune(Component(p, p.certainty == "proven", p.dimension) for p in primes)
-    except Undecided:
-        current().check("decomposition")
-        return ()
+    return ()

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache, partial
 from math import hypot
 
+from singsym.elimination.attempts import attempt
 from singsym.elimination.budget import Undecided, current
 from singsym.elimination.eliminate import without_zeros_of
 from singsym.elimination.ideal import Ideal
@@ -139,7 +139,7 @@ class Cartesian:
     def based(self, seconds: float) -> tuple[Ideal, ...]:
         """Those of the ideals whose Groebner bases are found in so many seconds."""
         found: list[Ideal] = []
-        with suppress(Undecided), current().part(seconds), unnoted():
+        with attempt("bases that hold polynomials", seconds), unnoted():
             for ideal in self._ideals:
                 ideal.groebner_basis()
                 found.append(ideal)
@@ -254,12 +254,10 @@ def _vanish_on(ideal: Ideal, polynomials: Group) -> bool:
 
     Half of the time is for the first way, which takes one Groebner basis over Q for all.
     """
-    left = current().remaining()
     known = False
-    with suppress(Undecided), current().part(None if left is None else left / 2), unnoted() as seen:
+    with attempt("a proof that polynomials vanish", share=0.5), unnoted() as seen:
         ideal.groebner_basis()
         known = weakest(*seen) == "proven"
-    current().check("a proof that polynomials vanish")
     return all(
         (known and ideal.contains(p)) or Ideal(*without_zeros_of(ideal.ring, ideal.generators, p)).is_unit()
         for p in polynomials

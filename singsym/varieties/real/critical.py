@@ -16,6 +16,7 @@ from functools import partial
 from math import comb, prod
 from random import Random
 
+from singsym.elimination.attempts import attempt
 from singsym.elimination.budget import Budget, Undecided, current
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.verdict import noted_if_true
@@ -251,12 +252,9 @@ def _few_equations(component: Component, equations: Sequence[Polynomial]) -> tup
     for chosen in (known, tuple(shortest[: 2 * codimension])):
         if not 0 < 2 * len(chosen) < len(generators):
             continue
-        try:
-            with current().part(_CHOOSING_SECONDS):
-                if noted_if_true(partial(_generate, chosen, generators)):
-                    return chosen
-        except Undecided:
-            current().check("the equations of a piece")
+        with attempt("the equations of a piece", _CHOOSING_SECONDS):
+            if noted_if_true(partial(_generate, chosen, generators)):
+                return chosen
     return generators
 
 

@@ -16,12 +16,13 @@ from random import Random
 
 from flint import fmpq
 
-from singsym.elimination.budget import Undecided, current
+from singsym.elimination.attempts import attempt
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.residues import residue_basis
 from singsym.elimination.verdict import Certainty, note
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.real.dimension import has_rank
+from singsym.varieties.real.points import RealPoint
 from singsym.varieties.real.witness import RealSystem, Witness, frozen_values, samples
 from singsym.varieties.real.zerodim import real_points
 from singsym.varieties.splitting import factor_equations, irreducible_factors, used_ring
@@ -136,12 +137,9 @@ def _cut_point(system: RealSystem, ideal: Ideal, dimension: int) -> Witness | No
     for sample in samples(system, system.equations, 0, TRIES):
         for values in frozen_values(system, system.equations, sample, dimension):
             done += 1
-            try:
-                with current().part(CUT_SECONDS):
-                    points = real_points(_cut(ideal, values, dimension))
-            except Undecided:
-                current().check("cutting by hyperplanes")
-                points = ()
+            points: tuple[RealPoint, ...] = ()
+            with attempt("cutting by hyperplanes", CUT_SECONDS):
+                points = real_points(_cut(ideal, values, dimension))
             for point in points:
                 if system.admits(point) and has_rank(ideal.generators, point, len(ring.names) - dimension):
                     return Witness(point, tuple(values))

@@ -6,7 +6,6 @@ Source: Faugere et al. (1993) and Rouillier (1999), see quotient.py and parametr
 
 from __future__ import annotations
 
-import time
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import islice
@@ -16,6 +15,7 @@ from typing import Any
 from flint import fmpq_mpoly, fmpz_mpoly_vec, fmpz_poly
 
 from singsym.elimination import engines
+from singsym.elimination.attempts import cut_short
 from singsym.elimination.basis import canonical, groebner_basis
 from singsym.elimination.budget import Budget, Undecided, current
 from singsym.elimination.engines.msolve import NotZeroDimensional as InfinitelyMany
@@ -24,6 +24,7 @@ from singsym.elimination.engines.registry import msolve, over_rationals
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.memo import is_known, remember
 from singsym.elimination.verdict import note
+from singsym.elimination.work import worked
 from singsym.polynomials import AlgebraicConstant, Polynomial, Ring
 from singsym.varieties.real.completeness import is_complete
 from singsym.varieties.real.macaulay import quotient_algebra_over
@@ -85,7 +86,7 @@ def solve(equations: Sequence[Polynomial], budget: Budget | None = None) -> Para
     system = canonical(ring, (*map(ring.convert, equations), *ring.relations))
     if not system:
         raise NotZeroDimensional("only zero equations: the whole space")
-    found = remember("points", (ring, frozenset(system)), lambda: _solve(ring, system, budget))
+    found = remember("points", (ring, frozenset(system)), lambda: _solve(ring, system, budget), budget)
     note(found.certainty)
     return found
 
@@ -94,16 +95,16 @@ def _solve(ring: Ring, system: tuple[Polynomial, ...], budget: Budget) -> Parame
     def check() -> None:
         budget.check("the quotient algebra of a zero-dimensional system")
 
-    known = is_known("groebner", (ring, frozenset(system)))
+    known = is_known("groebner", (ring, frozenset(system)), budget)
     found = None
     if not known and "flint" in engines.allowed():
         whole = _capped_basis(ring, system)
         if whole is not None:
             return _from_basis(ring, whole, system, check)
     if not known and engines.has("msolve"):
-        start = time.monotonic()
+        start = worked()
         found = _by_msolve(ring, system, budget)
-        if found is not None and _is_known_complete(found, system, time.monotonic() - start, check):
+        if found is not None and _is_known_complete(found, system, worked() - start, check):
             found = replace(found, certainty="proven")
     elif not known and "flint" in engines.allowed():
         easy, hard = _easy_part(ring, system)
@@ -157,6 +158,7 @@ def _by_msolve(ring: Ring, system: Sequence[Polynomial], budget: Budget) -> Para
     except InfinitelyMany as error:
         raise NotZeroDimensional(str(error)) from None
     except engines.EngineFailure:
+        cut_short("real points by msolve")
         budget.check("real points by msolve")
         return None
     if raw is None:
@@ -167,17 +169,17 @@ def _by_msolve(ring: Ring, system: Sequence[Polynomial], budget: Budget) -> Para
 
 
 def _is_known_complete(
-    found: Parametrization, system: tuple[Polynomial, ...], seconds: float, check: Check
+    found: Parametrization, system: tuple[Polynomial, ...], work: float, check: Check
 ) -> bool:
     """Whether these are proven to be all points, where a basis over Q is found quickly.
 
-    seconds: how long the search for them took; `_holds` has checked other equations exactly.
+    work: what the search for them took; `_holds` has checked other equations exactly.
     """
     dear = [f for f in system if found.cost_of(f) >= _EXACT_COST]
     if sum(map(found.cost_of, dear)) > _PROOF_COST:
         return False
     task = engines.Task("groebner", found.ring, system)
-    basis = over_rationals(task, seconds, short=found.minimal.degree() == 0)
+    basis = over_rationals(task, work, short=found.minimal.degree() == 0)
     return (
         basis is not None and is_complete(found, basis, check) and all(found.vanishes(f, check) for f in dear)
     )
