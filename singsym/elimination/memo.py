@@ -14,7 +14,7 @@ from math import inf
 from threading import Lock
 from typing import Any, TypeVar
 
-from singsym.elimination import chaos, engines, patience
+from singsym.elimination import chance, chaos, engines, patience
 from singsym.elimination.attempts import cut_short, hurries
 from singsym.elimination.budget import Budget, current
 from singsym.elimination.verdict import Certainty, certainties, note, weakest
@@ -53,7 +53,7 @@ if hasattr(os, "register_at_fork"):
 
 
 def _full(question: str, key: Hashable) -> Hashable:
-    return question, key, engines.allowed(), patience.in_force()
+    return question, key, engines.allowed(), patience.in_force(), chance.seed()
 
 
 def _time_left(budget: Budget | None) -> float:

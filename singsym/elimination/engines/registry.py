@@ -30,7 +30,7 @@ from singsym.elimination.engines.flint_engine import FlintEngine
 from singsym.elimination.engines.msolve import MsolveEngine
 from singsym.elimination.engines.singular import SingularEngine
 from singsym.elimination.engines.sympy_engine import SympyEngine
-from singsym.elimination.verdict import note
+from singsym.elimination.verdict import certainties, note, weakest
 from singsym.elimination.work import worked
 from singsym.polynomials import Polynomial
 
@@ -164,8 +164,9 @@ def _checked(task: Task, answer: EngineAnswer, work: float, budget: Budget) -> E
     if task.characteristic:
         return answer
     if task.kind != "groebner":
-        certainty = checks.check_ideals(task, answer, lambda t: solve(t, budget))
-        return replace(answer, certainty=certainty)
+        with certainties() as seen:
+            certainty = checks.check_ideals(task, answer, lambda t: solve(t, budget))
+        return replace(answer, certainty=weakest(certainty, *seen))
     if len(answer.ideals) != 1:
         raise EngineFailure(answer.engine, f"returned {len(answer.ideals)} bases for one ideal")
     checks.check_inputs(task, answer)
@@ -183,7 +184,11 @@ def _checked(task: Task, answer: EngineAnswer, work: float, budget: Budget) -> E
             if set(exact) != set(answer.ideals[0]):
                 raise EngineFailure(answer.engine, "returned a wrong basis: it differs from that over Q")
             return replace(answer, certainty="proven")
-    compared = checks.compare_modulo_prime(task, answer, lambda t: _second_opinion(t, answer.engine, budget))
+
+    def ask(task: Task, another: bool) -> EngineAnswer | None:
+        return _modulo(task, answer.engine if another else "", budget)
+
+    compared = checks.compare_modulo_primes(task, answer, ask)
     return answer if complete and compared else replace(answer, certainty="modular")
 
 
@@ -211,8 +216,8 @@ def _is_short(basis: Sequence[Polynomial]) -> bool:
     )
 
 
-def _second_opinion(task: Task, asked: str, budget: Budget) -> EngineAnswer | None:
-    """The same task by another engine if there is one, else by the same engine once more."""
+def _modulo(task: Task, asked: str, budget: Budget) -> EngineAnswer | None:
+    """The answer modulo a prime, if possible of another engine than one that was asked."""
     others: tuple[Engine, ...] = (msolve, singular)
     order = sorted(others, key=lambda e: e.name == asked)
     for engine in order:

@@ -16,6 +16,7 @@ from functools import partial
 from math import comb, prod
 from random import Random
 
+from singsym.elimination import chance
 from singsym.elimination.attempts import attempt
 from singsym.elimination.budget import Budget, Undecided, current
 from singsym.elimination.ideal import Ideal
@@ -86,7 +87,9 @@ def component_samples(
     # finitely many critical and singular points together: then the piece is reduced and nothing is left
     chosen = next(_choices(component, equations, codimension))
     try:
-        return _critical_points(component, equations, chosen, nonzero, Random(5), budget)
+        return _critical_points(
+            component, equations, chosen, nonzero, chance.random("critical points"), budget
+        )
     except NotZeroDimensional:
         found, singular = regular_samples(component, equations, budget, nonzero=nonzero)
     return (*found, *sample_points(ring, singular.generators, budget, nonzero=nonzero))
@@ -112,7 +115,7 @@ def regular_samples(
     budget = current(budget)
     ring = component.ideal.ring
     chosen, border, singular = _regular_part(component, equations, budget)
-    random = Random(5)
+    random = chance.random("critical points")
     for _ in range(_CENTRES):
         try:
             outside = (*nonzero, *border)
@@ -167,7 +170,7 @@ def _choices(
     if len(generators) == codimension:
         yield tuple(generators)
         return
-    random = Random(2)
+    random = chance.random("choices of equations")
     yield _independent(generators, codimension, random)
     for _ in range(3):
         yield tuple(
@@ -180,7 +183,7 @@ def _independent(generators: Sequence[Polynomial], count: int, random: Random) -
     """The first generators whose gradients are independent at a random point of the whole space."""
     from flint import nmod_mat
 
-    prime = 2**31 - 1
+    prime = chance.sparing_prime()
     ring = generators[0].ring
     point = [random.randrange(prime) for _ in ring.names]
     chosen: list[Polynomial] = []

@@ -10,10 +10,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import cos, sin
-from random import Random
 
 from flint import fmpz_poly
 
+from singsym.elimination import chance
 from singsym.elimination.attempts import attempt
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.memo import remember
@@ -55,13 +55,13 @@ def extreme_zeros(f: Polynomial, circles: Sequence[Pair]) -> tuple[Polynomial, .
 
 def _has_two_signs(f: Polynomial, circles: Sequence[Pair]) -> bool:
     """Whether values of both signs are found."""
-    ring, random, signs = f.ring, Random(0), set()
+    ring, drawing, signs = f.ring, chance.random("signs", f), set()
     point = [0.0] * len(ring.names)
     for constant in ring.constants:
         point[ring.index(constant.name)] = float((constant.low + constant.high) / 2)
     for _ in range(_TRIES):
         for x, y in circles:
-            angle = random.uniform(0, 6.3)
+            angle = drawing.uniform(0, 6.3)
             point[ring.index(x)], point[ring.index(y)] = cos(angle), sin(angle)
         signs.add(f.evaluate(point) > 0)
         if len(signs) == 2:

@@ -18,6 +18,7 @@ from singsym.elimination import engines
 from singsym.elimination.attempts import cut_short
 from singsym.elimination.basis import canonical, groebner_basis
 from singsym.elimination.budget import Budget, Undecided, current
+from singsym.elimination.chance import PRIMES, random_primes
 from singsym.elimination.engines.msolve import NotZeroDimensional as InfinitelyMany
 from singsym.elimination.engines.msolve import RawParametrization
 from singsym.elimination.engines.registry import msolve, over_rationals
@@ -28,7 +29,7 @@ from singsym.elimination.work import worked
 from singsym.polynomials import AlgebraicConstant, Polynomial, Ring
 from singsym.varieties.real.completeness import is_complete
 from singsym.varieties.real.macaulay import quotient_algebra_over
-from singsym.varieties.real.parametrization import Parametrization, divides, parametrize, primes
+from singsym.varieties.real.parametrization import Parametrization, divides, parametrize
 from singsym.varieties.real.points import RealPoint, real_points_of
 from singsym.varieties.real.quotient import (
     Algebra,
@@ -189,7 +190,8 @@ def _holds(found: Parametrization, equation: Polynomial, budget: Budget) -> bool
     """Whether an equation holds at all points: exactly, or modulo primes where that is too dear."""
     if found.cost_of(equation) < _EXACT_COST:
         return found.vanishes(equation, lambda: budget.check("the substitution of points"))
-    return all(found.vanishes_modulo(equation, p) is not False for p in islice(primes(), 3))
+    answers = (found.vanishes_modulo(equation, p) for p in random_primes("points", equation, bits=62))
+    return all(islice((answer for answer in answers if answer is not None), PRIMES))
 
 
 def _read(ring: Ring, raw: RawParametrization) -> tuple[Parametrization, bool]:
