@@ -20,6 +20,7 @@ from singsym.classes.strata import Stratum
 from singsym.classes.symmetry import image
 from singsym.elimination.attempts import attempt
 from singsym.elimination.budget import Budget, Undecided
+from singsym.elimination.chance import BY_PRIMES
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.verdict import Verdict, certainties, weakest
 from singsym.kinematics.placement import Coordinates, JointValue
@@ -203,7 +204,7 @@ def _dependent(piece: Piece, system: RealSystem, patch: Patch) -> tuple[Piece, P
         if witness is not None:
             found, points = _positive(piece, (dimension, witness))
             if cut.certainty == "modular":
-                reason = "its dimension rests on a Groebner basis found modulo primes"
+                reason = f"its dimension rests on a Groebner basis {BY_PRIMES}"
                 found = replace(found, verdict=replace(found.verdict, reason=reason))
             return found, points
     return _positive(piece, real_dimension(system))

@@ -22,7 +22,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Generic, TypeVar, cast
 
-from singsym.elimination import engines, progress
+from singsym.elimination import chance, engines, progress
 from singsym.elimination.budget import Budget
 from singsym.polynomials import Polynomial, Ring
 
@@ -111,8 +111,8 @@ class Cache:
         os.replace(name, path)
 
 
-def _with_engines(allowed: tuple[str, ...], function: Callable[[T], R], task: T) -> R:
-    with engines.use(*allowed):
+def _with_settings(allowed: tuple[str, ...], seed: int, function: Callable[[T], R], task: T) -> R:
+    with engines.use(*allowed), chance.use_seed(seed):
         return function(task)
 
 
@@ -214,6 +214,7 @@ class _Queue(Generic[T, R]):
         self.function = function
         self.executor = executor
         self.allowed = engines.allowed()
+        self.seed = chance.seed()
         self.waiting: deque[tuple[Place, Path | None, T]] = deque()
         self.running: dict[Future[R], tuple[Place, Path | None]] = {}
 
@@ -224,7 +225,7 @@ class _Queue(Generic[T, R]):
         if self.executor is None:
             self.waiting.append((place, path, task))
         else:
-            future = self.executor.submit(_with_engines, self.allowed, self.function, task)
+            future = self.executor.submit(_with_settings, self.allowed, self.seed, self.function, task)
             self.running[future] = (place, path)
 
     def finished(self) -> list[tuple[Place, Path | None, R]]:

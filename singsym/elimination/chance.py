@@ -21,6 +21,8 @@ VARIABLE = "SINGSYM_SEED"
 """The environment variable with the seed; without it the operating system draws one."""
 PRIMES = 3
 """An answer called modular rests on so many primes, drawn for it."""
+BY_PRIMES = f"modulo {PRIMES} random primes"
+"""What such an answer says of itself."""
 
 
 def _drawn() -> int:

@@ -54,7 +54,7 @@ def test_pickled_budgets_keep_what_is_left() -> None:
 
 def test_verdicts() -> None:
     yes = Verdict.yes("modular", engine="msolve", reason="1 is in the ideal")
-    assert str(yes) == "yes (modular by msolve): 1 is in the ideal"
+    assert str(yes) == "yes (modular, 3 primes by msolve): 1 is in the ideal"
     assert (~yes).answer is Answer.NO
     assert (~Verdict.undecided("x")).is_undecided
     assert weakest() == "proven"

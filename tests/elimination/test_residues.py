@@ -39,7 +39,7 @@ def test_members_and_others_are_told_apart() -> None:
 
 @needs_engine
 def test_primes_divide_no_coefficient(monkeypatch: pytest.MonkeyPatch) -> None:
-    """p x = 1 has a solution, but not modulo p, and so has x = y / p = 1; the same primes are drawn for all."""
+    """p x = 1 has a solution, but not modulo p, and so have y = p x and so on; all draw the same."""
     monkeypatch.setattr(chance, "random", lambda *about: Random(1))
     for p in [residue.prime for residue in residues(Ideal(R, (x,)))]:
         for equations in ((p * x - 1, y), (y / p - 1, x - 1), (y - p, x * y - 1)):

@@ -13,6 +13,7 @@ from flint import fmpz_poly
 
 from singsym.elimination.attempts import attempt
 from singsym.elimination.budget import Budget, Undecided, current
+from singsym.elimination.chance import BY_PRIMES
 from singsym.elimination.verdict import Verdict, certainties
 from singsym.polynomials import Polynomial
 from singsym.varieties.decomposition import Component, decompose
@@ -48,7 +49,9 @@ def is_empty_over_reals(
     except Undecided as reason:
         return Verdict.undecided(str(reason))
     if verdict.is_yes and "modular" in seen:
-        return replace(verdict, certainty="modular", engine="msolve")
+        return replace(
+            verdict, certainty="modular", engine="msolve", reason=f"{verdict.reason} ({BY_PRIMES})"
+        )
     return verdict
 
 

@@ -71,7 +71,8 @@ def katsura_and_one_more(more: int) -> RealSystem:
     """Katsura's equations, hard to solve over Q, and more * u = 1.
 
     They are sum x_l x_(m-l) = x_m for m = 0, ..., 6 (x_-k = x_k, and zero beyond x_7) and
-    x_0 + 2 (x_1 + ... + x_7) = 1: with x_0 = 1 and the others 0 they all hold, so (1, 0, ..., 0, 1 / more) is a solution.
+    x_0 + 2 (x_1 + ... + x_7) = 1: with x_0 = 1 and the others 0 they all hold,
+    so that (1, 0, ..., 0, 1 / more) is a solution.
     """
     ring = Ring((*(f"x{i}" for i in range(8)), "u"))
 
