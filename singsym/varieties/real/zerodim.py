@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from fractions import Fraction
 from itertools import islice
 from math import lcm
 from typing import Any
@@ -58,7 +59,8 @@ def real_points(
     """All real points of a zero-dimensional system, in increasing order of the coordinates.
 
     equations: an `Ideal`, or polynomials of one ring; the relations of the ring's constants are added, and
-    points with a conjugate of a constant are dropped.  Multiplicities are not told.
+    points with a conjugate of a constant are dropped.  Multiplicities are not told.  The space of no
+    variables is a point.
     Raises `NotZeroDimensional` where there are infinitely many complex points, `Undecided` out of budget.
 
     >>> from singsym.polynomials import Ring
@@ -67,6 +69,8 @@ def real_points(
     [{'x': '-1.414', 'y': '-1.414'}, {'x': '1.414', 'y': '1.414'}]
     """
     generators = equations.generators if isinstance(equations, Ideal) else tuple(equations)
+    if not generators and isinstance(equations, Ideal) and not equations.ring.names:
+        return (RealPoint(equations.ring, (0, 1), (1,), (), Fraction(0), Fraction(0)),)
     if not generators:
         raise NotZeroDimensional("no equations: the whole space")
     ring = generators[0].ring
