@@ -132,7 +132,7 @@ def parametrize(
             algebra.ring, fmpz_poly([1]), fmpz_poly([1]), (fmpz_poly([]),) * len(algebra.matrices)
         )
     drawing = random("linear forms", seed)
-    for width in (2, 5, 30):
+    for width in (2, 5, 30, 1000):
         weights = [drawing.randint(-width, width) for _ in algebra.matrices]
         if _image(_integral(algebra, weights), sparing_prime()) is not None:
             return _reconstructed(algebra, weights, equations, check)
