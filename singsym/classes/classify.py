@@ -46,7 +46,8 @@ BOUND_SECONDS = 30.0
 class Limits:
     """What a classification may use, None without limit.
 
-    seconds, memory_mb: of each task (a branch, a stratum, a curve); total: seconds of the search for strata.
+    seconds, memory_mb: of work (see `work`) and memory for each task (a branch, a stratum, a curve); total:
+    seconds of time for the search for strata.
     """
 
     seconds: float | None = 60.0

@@ -10,12 +10,12 @@ Source: Bochnak, Coste, Roy, Real Algebraic Geometry (1998), 2.8 and 3.3.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from singsym.classes.patches import patches
-from singsym.elimination.budget import Undecided, current
+from singsym.elimination.attempts import attempt
+from singsym.elimination.budget import current
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.verdict import Certainty, unnoted, weakest
 from singsym.kinematics.numerical_rank import numerical_rank
@@ -61,18 +61,16 @@ def bound_above(system: RealSystem, dimension: int, beside: int = 0) -> Bound | 
     """
     ring, equations = system.ring, system.closed_equations
     seems = None
-    with suppress(Undecided), current().part(CUT_SECONDS), unnoted():
+    with attempt("a bound of a dimension", CUT_SECONDS), unnoted():
         seems = seems_at_most(ring, equations, dimension + beside)
         if not seems and system.exclusions:
             seems = seems_at_most(*_off_exclusions(system), dimension + beside)
-    current().check("a bound of a dimension")
     if seems is False:
         return None
-    with suppress(Undecided), current().part(PROOF_SECONDS), unnoted() as seen:
+    with attempt("a proof of a bound", PROOF_SECONDS), unnoted() as seen:
         found = Ideal(ring, equations).dimension - beside
         if found <= dimension and (weakest(*seen) == "proven" or seems is None):
             return Bound(dimension, weakest(*seen))
-    current().check("a bound of a dimension")
     return Bound(dimension, "modular") if seems else None
 
 

@@ -145,7 +145,7 @@ def explore_patiently(branch: Branch) -> Explored:
 def _explored(branch: Branch) -> Explored:
     work = _Exploring(branch)
     try:
-        with Budget(branch.seconds, branch.memory_mb):
+        with Budget(work=branch.seconds, memory_mb=branch.memory_mb):
             whole = unsplit(branch.equations, branch.feasible.ring)
             system = restricted(branch.admitted, whole)
             if not points_on(system, whole, 1):

@@ -5,12 +5,12 @@ Source: singsym's own order of the proofs in `varieties.real`, the cheap ones fi
 
 from __future__ import annotations
 
-from contextlib import suppress
 from dataclasses import replace
 
 from singsym.classes.patches import Patch
 from singsym.elimination import engines
-from singsym.elimination.budget import Undecided, current
+from singsym.elimination.attempts import attempt
+from singsym.elimination.budget import current
 from singsym.elimination.verdict import Certainty, note, unnoted, weakest
 from singsym.varieties.decomposition import Component
 from singsym.varieties.real.cartesian import Cartesian
@@ -63,7 +63,7 @@ def is_proven_empty(
 
     def no_complex_point() -> bool:
         most = min(seconds, EMPTINESS_SECONDS) if hasty else seconds
-        with suppress(Undecided), current().part(most * longer):
+        with attempt("a proof that there is no complex point", most * longer):
             return chart.is_empty(QUICK_SECONDS if modular and hasty else None)
         return False
 

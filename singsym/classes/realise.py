@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from itertools import chain
 
 from flint import arb
 
@@ -20,7 +21,8 @@ from singsym.classes.presence import is_proven_empty, restricted
 from singsym.classes.result import Configuration, Equations, Piece
 from singsym.classes.strata import Stratum
 from singsym.classes.symmetry import image
-from singsym.elimination.budget import Budget, Undecided, current
+from singsym.elimination.attempts import attempt
+from singsym.elimination.budget import Budget, Undecided
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.verdict import Certainty, Verdict, certainties, weakest
 from singsym.kinematics.placement import Coordinates, JointValue
@@ -127,7 +129,7 @@ def realise(task: RealTask) -> Realised:
     system = replace(task.feasible, equations=stratum.equations, exclusions=exclusions)
     points: Points = ()
     try:
-        with Budget(task.seconds, task.memory_mb), certainties() as seen:
+        with Budget(work=task.seconds, memory_mb=task.memory_mb), certainties() as seen:
             if task.known is not None and (bound := _bound(system, task.known)) is not None:
                 reason = f"only a dimension above {task.known} would matter"
                 extent = Extent(-1, bound.dimension, bound.certainty, reason)
@@ -202,13 +204,11 @@ def _given(piece: Piece, system: RealSystem, elsewhere: tuple[Equations, ...]) -
 
 def _finitely_many(system: RealSystem) -> Sequence[RealPoint] | None:
     """All real zeros, off the exclusions where there are too many on them; None where they are not found."""
-    left = current().remaining()
     for zeros in (lambda: real_points(system.closed_equations), lambda: points_off_exclusions(system)):
-        with suppress(NotZeroDimensional, Undecided), current().part(None if left is None else left / 3):
+        with suppress(NotZeroDimensional), attempt("finitely many points", share=1 / 3):
             return zeros()
         if not system.exclusions:
             break
-    current().check("finitely many points")
     return None
 
 
@@ -217,7 +217,7 @@ def _bounded(piece: Piece, system: RealSystem, dimension: int, witness: Witness)
     most = piece.extent.at_most
     found, points = _known(piece, Extent(dimension, most), witness)
     try:
-        for larger, other in ((dimension, witness), *larger_parts(system, dimension)):
+        for larger, other in chain([(dimension, witness)], larger_parts(system, dimension)):
             found, points = _known(piece, Extent(larger, most), other)
             if larger == most:
                 return found, points
@@ -273,12 +273,9 @@ def _bound(system: RealSystem, dimension: int) -> Bound | None:
 
 def _cut(system: RealSystem) -> Cut | None:
     """The dimension by cuts where it is found in time."""
-    try:
-        with current().part(DIMENSION_SECONDS):
-            return dimension_by_cuts(system)
-    except Undecided:
-        current().check("the dimension of a set")
-        return None
+    with attempt("the dimension of a set", DIMENSION_SECONDS):
+        return dimension_by_cuts(system)
+    return None
 
 
 def _lies_in(point: RealPoint, loci: tuple[Equations, ...]) -> bool:
@@ -345,7 +342,7 @@ def count(task: CurveTask) -> Counted:
     They are not counted where the complex zeros are no curve, as of x^2 + y^2 = 0 in space.
     """
     try:
-        with Budget(task.seconds, task.memory_mb):
+        with Budget(work=task.seconds, memory_mb=task.memory_mb):
             curve = real_curve(_off_whole_parts(task))
             if curve.verdict.is_undecided:
                 return Counted(None, curve.verdict.reason)

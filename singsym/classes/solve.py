@@ -224,7 +224,7 @@ def solve_locus(task: LocusTask) -> Solved:
     """Decompose a closed part and find real points on each component: the task that workers run."""
     feasible = task.feasible
     try:
-        with Budget(task.seconds, task.memory_mb):
+        with Budget(work=task.seconds, memory_mb=task.memory_mb):
             components = decompose((*task.path, *task.equations), feasible.nonzero, ring=feasible.ring)
             kept = [c for c in components if not is_excluded(c, feasible)]
             return Solved(tuple(_real(task, component) for component in kept))

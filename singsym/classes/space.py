@@ -18,12 +18,11 @@ variables, it is singular exactly where all gradients, also by the parameters, a
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import suppress
 
 from singsym.classes.extent import union
 from singsym.classes.result import ClassResult, Piece, SpacePiece
 from singsym.classes.types import SingularityType
-from singsym.elimination.budget import Budget, Undecided
+from singsym.elimination.attempts import attempt
 from singsym.elimination.conditions import Conditions
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.verdict import unnoted, weakest
@@ -99,7 +98,7 @@ def _with_parameters(conditions: Conditions) -> str:
     space = conditions.equation.space
     equations = tuple(f for f in space.equations if f)
     matrix = PolynomialMatrix.of(space.ring, jacobian(equations, space.ring.names))
-    with suppress(Undecided), Budget(SECONDS):
+    with attempt("whether a space is smooth", SECONDS):
         minors = tuple(minor for _, _, minor in maximal_minors(matrix))
         system = RealSystem(
             space.ring, (*equations, *minors), space.exclusions, space.positive, space.nonnegative
@@ -117,7 +116,7 @@ def _is_complete_intersection(conditions: Conditions) -> bool:
     if len(equation.matrix.rows) != equation.N:
         return False
     usual = equation.n + len(space.parameters)
-    with suppress(Undecided), Budget(SECONDS), unnoted() as seen:
+    with attempt("the dimensions of the loop equations", SECONDS), unnoted() as seen:
         if Ideal(space.ring, space.equations).dimension > usual:
             return False
         for label in ("5", "4"):

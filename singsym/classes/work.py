@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any, Generic, Protocol, TypeVar
 
 from singsym.classes.cache import Cache, Entry, Result
-from singsym.elimination import engines, progress
+from singsym.elimination import chance, engines, progress
 from singsym.elimination.budget import Budget
 
 
@@ -29,6 +29,11 @@ R = TypeVar("R", bound=Result)
 
 Place = tuple[int, ...]
 """Which task: its number among the first ones, or among those that follow from the task at `place[:-1]`."""
+
+
+def _with_settings(allowed: tuple[str, ...], seed: int, function: Callable[[T], R], task: T) -> R:
+    with engines.use(*allowed), chance.use_seed(seed):
+        return function(task)
 
 
 @dataclass
@@ -120,6 +125,7 @@ class _Queue(Generic[T, R]):
         self.function = function
         self.executor = executor
         self.allowed = engines.allowed()
+        self.seed = chance.seed()
         self.waiting: deque[_Job[T, R]] = deque()
         self.running: dict[Future[R], _Job[T, R]] = {}
 
@@ -134,7 +140,7 @@ class _Queue(Generic[T, R]):
 
     def _submitted(self, executor: Executor, task: T) -> Future[R]:
         try:
-            return executor.submit(_with_engines, self.allowed, self.function, task)
+            return executor.submit(_with_settings, self.allowed, self.seed, self.function, task)
         except BrokenExecutor as error:
             broken: Future[R] = Future()
             broken.set_exception(error)

@@ -57,7 +57,7 @@ def groebner_basis(ring: Ring, polynomials: Sequence[Polynomial], budget: Budget
     """
     generators = canonical(ring, polynomials)
     key = (ring, frozenset(generators))
-    return remember("groebner", key, lambda: _groebner_basis(ring, generators, current(budget)))
+    return remember("groebner", key, lambda: _groebner_basis(ring, generators, current(budget)), budget)
 
 
 def _groebner_basis(ring: Ring, generators: tuple[Polynomial, ...], budget: Budget) -> Basis:
@@ -91,7 +91,7 @@ def _groebner_basis(ring: Ring, generators: tuple[Polynomial, ...], budget: Budg
 
 def _ask(task: engines.Task, budget: Budget) -> engines.EngineAnswer:
     key = (task.ring, frozenset(task.generators))
-    return remember("engine groebner", key, lambda: engines.solve(task, budget))
+    return remember("engine groebner", key, lambda: engines.solve(task, budget), budget)
 
 
 def _linear_part(ring: Ring, generators: list[Polynomial]) -> tuple[list[Polynomial], list[Polynomial]]:

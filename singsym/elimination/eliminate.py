@@ -46,7 +46,7 @@ def eliminate(
     """
     generators = canonical(ring, generators)
     key = (ring, frozenset(generators), frozenset(names))
-    return remember("eliminate", key, lambda: _eliminate(ring, generators, names, budget))
+    return remember("eliminate", key, lambda: _eliminate(ring, generators, names, budget), budget)
 
 
 def _eliminate(

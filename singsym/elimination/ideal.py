@@ -12,6 +12,7 @@ from functools import reduce as fold
 from flint import fmpz_mpoly_vec
 
 from singsym.elimination import engines, monomials
+from singsym.elimination.attempts import cut_short
 from singsym.elimination.basis import Basis, canonical, groebner_basis
 from singsym.elimination.budget import Budget, Undecided, current
 from singsym.elimination.eliminate import eliminate, without_zeros_of
@@ -168,7 +169,7 @@ class Ideal:
 
         def compute() -> bool:
             reduced = polynomial.squarefree_part()
-            if is_known("groebner", self._key):
+            if is_known("groebner", self._key, budget):
                 reduced = self._basis(budget).reduce(reduced)
                 if not reduced:
                     return True
@@ -177,7 +178,7 @@ class Ideal:
                 return self.is_unit(budget)
             return Ideal(*without_zeros_of(self.ring, self.generators, reduced)).is_unit(budget)
 
-        return remember("vanishes", key, compute)
+        return remember("vanishes", key, compute, budget)
 
     def is_unit(self, budget: Budget | None = None) -> bool:
         """Whether the ideal contains 1: there is no zero, not even a complex one."""
@@ -188,6 +189,7 @@ class Ideal:
         try:
             basis = self._core(budget)[0]
         except Undecided as failure:
+            cut_short("a unit ideal")
             return Verdict.undecided(str(failure))
         certainty = weakest(self.given, basis.certainty)
         if basis.is_unit:
@@ -196,7 +198,7 @@ class Ideal:
 
     def _core(self, budget: Budget | None = None) -> tuple[Basis, int]:
         """A Groebner basis that has the same quotient ring, and how many variables it lives in."""
-        if is_known("groebner", self._key) and self.ring.order != "lex":
+        if is_known("groebner", self._key, budget) and self.ring.order != "lex":
             return self._basis(budget), len(self.ring.names)
 
         def compute() -> tuple[Basis, int]:
@@ -205,7 +207,7 @@ class Ideal:
             rest, made = substitute_solved(generators)
             return groebner_basis(graded, rest, budget), len(self.ring.names) - len(made)
 
-        return remember("core", self._key, compute)
+        return remember("core", self._key, compute, budget)
 
     # -- dimension -------------------------------------------------------------------------------
 

@@ -1,5 +1,6 @@
 """Results remembered by content: the same question about the same polynomials is answered once.
 
+What more time might have made better is kept with the time that there was, and looked for again with more.
 Source: content-addressed caches; the keys are values, never identities.
 """
 
@@ -8,16 +9,36 @@ from __future__ import annotations
 import os
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
+from dataclasses import dataclass
+from math import inf
 from threading import Lock
 from typing import Any, TypeVar
 
-from singsym.elimination import engines
+from singsym.elimination import chance, chaos, engines, patience
+from singsym.elimination.attempts import cut_short, hurries
+from singsym.elimination.budget import Budget, current
 from singsym.elimination.verdict import Certainty, certainties, note, weakest
 
 Value = TypeVar("Value")
 
 _LIMIT = 20_000
-_known: OrderedDict[Hashable, tuple[Any, Certainty]] = OrderedDict()
+
+
+@dataclass(frozen=True)
+class _Known:
+    """A value, how it is known, what was cut short on the way, and the time that there was for it then."""
+
+    value: Any
+    certainty: Certainty
+    cuts: tuple[str, ...] = ()
+    time: float = inf
+
+    def will_do(self, budget: Budget | None) -> bool:
+        """Whether it is what would be found in that budget as well."""
+        return not self.cuts or _time_left(budget) <= self.time
+
+
+_known: OrderedDict[Hashable, _Known] = OrderedDict()
 _lock = Lock()
 
 
@@ -32,13 +53,21 @@ if hasattr(os, "register_at_fork"):
 
 
 def _full(question: str, key: Hashable) -> Hashable:
-    return question, key, engines.allowed(), engines.proof_patience()
+    return question, key, engines.allowed(), patience.in_force(), chance.seed()
 
 
-def remember(question: str, key: Hashable, compute: Callable[[], Value]) -> Value:
+def _time_left(budget: Budget | None) -> float:
+    left = current(budget).remaining()
+    return inf if left is None else left
+
+
+def remember(
+    question: str, key: Hashable, compute: Callable[[], Value], budget: Budget | None = None
+) -> Value:
     """The value computed before for this question and key with the engines allowed now, or a new one.
 
     How the value is known is remembered with it, see `verdict.certainties`.
+    budget: that of the computation, where it is not the current one.
 
     >>> remember("a doctest", 2, lambda: 4), remember("a doctest", 2, lambda: 5)
     (4, 4)
@@ -48,22 +77,32 @@ def remember(question: str, key: Hashable, compute: Callable[[], Value]) -> Valu
         known = _known.get(full)
         if known is not None:
             _known.move_to_end(full)
-    if known is None:
-        with certainties() as seen:
-            known = compute(), weakest(*seen)
-        with _lock:
-            _known[full] = known
-            if len(_known) > _LIMIT:
-                _known.popitem(last=False)
+    if known is None or not known.will_do(budget):
+        known = _computed(compute, budget)
+        if not (known.cuts and chaos.reigns()):
+            with _lock:
+                _known[full] = known
+                if len(_known) > _LIMIT:
+                    _known.popitem(last=False)
     else:
-        note(known[1])
-    value: Value = known[0]
+        note(known.certainty)
+        for what in known.cuts:
+            cut_short(what)
+    value: Value = known.value
     return value
 
 
-def is_known(question: str, key: Hashable) -> bool:
+def _computed(compute: Callable[[], Any], budget: Budget | None) -> _Known:
+    time = _time_left(budget)
+    with certainties() as seen, hurries() as cuts:
+        value = compute()
+    return _Known(value, weakest(*seen), tuple(cuts), time)
+
+
+def is_known(question: str, key: Hashable, budget: Budget | None = None) -> bool:
     """Whether `remember` would answer at once."""
-    return _full(question, key) in _known
+    known = _known.get(_full(question, key))
+    return known is not None and known.will_do(budget)
 
 
 def forget() -> None:

@@ -21,7 +21,7 @@ def minimal_primes(ring: Ring, generators: Generators, budget: Budget) -> tuple[
     Raises `engines.EngineUnavailable` where it takes an engine that is not there.
     """
     key = (ring, frozenset(generators))
-    return remember("minimal primes", key, lambda: _minimal_primes(ring, generators, budget))
+    return remember("minimal primes", key, lambda: _minimal_primes(ring, generators, budget), budget)
 
 
 def _minimal_primes(ring: Ring, generators: Generators, budget: Budget) -> tuple[Generators, ...]:

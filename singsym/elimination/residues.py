@@ -1,49 +1,64 @@
-"""Ideals modulo a prime: what is not true there is hardly true over Q.  They spare work; they prove nothing.
+"""Ideals modulo primes: what is not true there is hardly true over Q.  They spare work; they prove nothing.
 
 Source: E. A. Arnold, J. Symb. Comput. 35 (2003) 403-419: all but finitely many primes are lucky.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import islice
 
 from singsym.elimination import engines
 from singsym.elimination.budget import current
+from singsym.elimination.chance import PRIMES, numbers_in, random_primes
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.monomials import divides
+from singsym.elimination.patience import RESIDUES
 from singsym.polynomials import Polynomial, Ring
 
-_PRIME = 2**31 - 1
-_SECONDS = 3.0
 Basis = tuple[Polynomial, ...]
 
 
-def residue_basis(ideal: Ideal, seconds: float | None = _SECONDS) -> Basis | None:
-    """The Groebner basis modulo a prime; None where there is no engine for it.
+@dataclass(frozen=True)
+class Residues:
+    """An ideal modulo a prime, by its Groebner basis there."""
 
-    Raises `Undecided` where it takes longer, by default so long that one over Q need not be tried.
+    prime: int
+    ring: Ring
+    basis: Basis
+
+    @property
+    def is_unit(self) -> bool:
+        return self.basis == (self.ring.one,)
+
+    def contain(self, polynomials: Iterable[Polynomial]) -> bool:
+        """Whether polynomials are in the ideal, all modulo the prime; raises what `residues` raises.
+
+        >>> x, y = Ring(("x", "y")).gens
+        >>> Residues(7, x.ring, (x - 2, y - 4)).contain((y,))
+        False
+        """
+        more = tuple(p for p in polynomials if p)
+        leading = [p.value.monomial(0) for p in self.basis]
+        if any(not any(divides(m, p.value.monomial(0)) for m in leading) for p in more):
+            return False
+        return not more or _basis(self.ring, (*self.basis, *more), self.prime, RESIDUES.work) == self.basis
+
+
+def residues(ideal: Ideal, more: Iterable[Polynomial] = (), *, limited: bool = True) -> Iterator[Residues]:
+    """The ideal modulo each of a few primes, drawn so that they divide no coefficient of it, nor of `more`.
+
+    limited: whether to end, with `Undecided`, where it takes so long that a basis over Q need not be tried.
+    Raises `engines.EngineUnavailable` without an engine for it, at the first of them.
     """
-    return _basis(ideal.ring, ideal.generators, seconds)
+    given = (*ideal.generators, *more)
+    primes = random_primes("residues", *given, avoiding=numbers_in(given))
+    for prime in islice(primes, PRIMES):
+        basis = _basis(ideal.ring, ideal.generators, prime, RESIDUES.work if limited else None)
+        yield Residues(prime, ideal.ring, basis)
 
 
-def seems_to_contain(basis: Basis, polynomials: Sequence[Polynomial]) -> bool:
-    """Whether polynomials are in the ideal of a basis, all modulo a prime; True where no engine says.
-
-    >>> x, y = Ring(("x", "y")).gens
-    >>> basis = residue_basis(Ideal(x.ring, (x**2, x * y - 1)))
-    >>> basis is None or seems_to_contain(basis, (x.ring.one,))
-    True
-    """
-    more = tuple(p for p in polynomials if p)
-    leading = [p.value.monomial(0) for p in basis]
-    if any(not any(divides(m, p.value.monomial(0)) for m in leading) for p in more):
-        return False
-    return not more or _basis(basis[0].ring, (*basis, *more)) in (basis, None)
-
-
-def _basis(ring: Ring, generators: Sequence[Polynomial], seconds: float | None = _SECONDS) -> Basis | None:
-    task = engines.Task("groebner", ring, tuple(generators), (), _PRIME)
-    try:
-        return engines.solve(task, current().part(seconds)).ideals[0]
-    except engines.EngineUnavailable:
-        return None
+def _basis(ring: Ring, generators: Sequence[Polynomial], prime: int, work: float | None) -> Basis:
+    task = engines.Task("groebner", ring, tuple(generators), (), prime)
+    return engines.solve(task, current().part(work)).ideals[0]

@@ -12,7 +12,18 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any, Literal
 
+from singsym.elimination.chance import PRIMES
+
 Certainty = Literal["proven", "certified", "modular", "undecided"]
+
+
+def described(certainty: Certainty) -> str:
+    """The certainty for readers, with what it rests on.
+
+    >>> described("modular")
+    'modular, 3 primes'
+    """
+    return f"modular, {PRIMES} primes" if certainty == "modular" else certainty
 
 
 def weakest(*certainties: Certainty) -> Certainty:
@@ -101,7 +112,7 @@ class Verdict:
     """The answer to a question about a set, and how it is known.
 
     certainty: "proven" by exact algebra, "certified" by interval arithmetic, "modular" where it rests on
-    random primes, "undecided" without an answer.
+    `PRIMES` random primes, "undecided" without an answer.
     engine: who computed it; witness: a point or polynomial that shows it; reason: one sentence.
 
     >>> Verdict.no("proven", reason="the ideal contains 1").is_no
@@ -165,4 +176,6 @@ class Verdict:
         if self.is_undecided:
             return f"undecided: {self.reason}" if self.reason else "undecided"
         by = f" by {self.engine}" if self.engine else ""
-        return f"{self.answer} ({self.certainty}{by})" + (f": {self.reason}" if self.reason else "")
+        return f"{self.answer} ({described(self.certainty)}{by})" + (
+            f": {self.reason}" if self.reason else ""
+        )

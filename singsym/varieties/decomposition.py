@@ -11,9 +11,11 @@ from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from singsym.elimination import engines
-from singsym.elimination.budget import Budget, Undecided, current
+from singsym.elimination.attempts import attempt
+from singsym.elimination.budget import Budget, current
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.memo import remember
+from singsym.elimination.patience import SPLITTING
 from singsym.elimination.progress import Sink, report, to
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.irreducibility import Splitting, analyse, independent_variables, leading_exponents
@@ -25,7 +27,6 @@ from singsym.varieties.splitting import (
     used_ring,
 )
 
-_PROOF_SECONDS = 10.0
 _LONGEST_CUT = 300
 """An ideal is not taken apart along a longer polynomial, which would take too long to factor."""
 
@@ -318,31 +319,23 @@ def _smaller(system: _System, ideal: Ideal, main: Component, beside: Polynomial)
 
 def _saturated(ideal: Ideal, polynomial: Polynomial) -> Ideal | None:
     """The ideal of the zeros outside those of a polynomial; None where it is not found soon."""
-    try:
-        with current().part(_PROOF_SECONDS):
-            return ideal.saturate(polynomial)
-    except Undecided:
-        current().check("decomposition")
-        return None
+    with attempt("decomposition", SPLITTING.work):
+        return ideal.saturate(polynomial)
+    return None
 
 
 def _analysed(ideal: Ideal, unmixed: bool) -> Splitting:
-    try:
-        with current().part(_PROOF_SECONDS):
-            return analyse(ideal, macaulay=unmixed)
-    except Undecided:
-        current().check("decomposition")
-        # what was known before is no less true
-        return Splitting(beside=ideal.ring.one, macaulay=True) if unmixed else Splitting()
+    with attempt("decomposition", SPLITTING.work):
+        return analyse(ideal, macaulay=unmixed)
+    # what was known before is no less true
+    return Splitting(beside=ideal.ring.one, macaulay=True) if unmixed else Splitting()
 
 
 def _by_engine(ideal: Ideal) -> tuple[Component, ...]:
     """The minimal primes by Singular where it is present and quick, else nothing."""
     if not engines.has("singular"):
         return ()
-    try:
-        primes = ideal.minimal_primes(current().part(_PROOF_SECONDS))
+    with attempt("decomposition", SPLITTING.work):
+        primes = ideal.minimal_primes()
         return prune(Component(p, p.certainty == "proven", p.dimension) for p in primes)
-    except Undecided:
-        current().check("decomposition")
-        return ()
+    return ()

@@ -6,13 +6,14 @@ dimension zero over independent variables); the lemmas at the functions make it 
 
 from __future__ import annotations
 
-import random
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations_with_replacement
+from random import Random
 
 from flint import fmpq, fmpq_mat, fmpq_poly, fmpz_mat, nmod_mat
 
+from singsym.elimination import chance
 from singsym.elimination.budget import current
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Polynomial, Ring
@@ -109,7 +110,7 @@ class Coordinates:
         return not any(any(m[self.split :]) for m in leading_exponents(self.basis))
 
 
-def coordinates(ideal: Ideal, rng: random.Random) -> Iterator[Coordinates]:
+def coordinates(ideal: Ideal, rng: Random) -> Iterator[Coordinates]:
     """The ideal in its own coordinates, independent variables last, then after small linear changes."""
     ring = ideal.ring
     basis = ideal.groebner_basis()
@@ -147,7 +148,7 @@ def analyse(ideal: Ideal, *, macaulay: bool = False, seed: int = 0) -> Splitting
     >>> analyse(Ideal(x.ring, (x * z, y * z))).beside is None
     False
     """
-    rng = random.Random(seed)
+    rng = chance.random("splitting", seed)
     best = Splitting(beside=ideal.ring.one, macaulay=True) if macaulay else Splitting()
     for place in coordinates(ideal, rng):
         current().check("decomposition")
@@ -162,7 +163,7 @@ def analyse(ideal: Ideal, *, macaulay: bool = False, seed: int = 0) -> Splitting
     return best
 
 
-def _beside(place: Coordinates, rng: random.Random) -> Polynomial | None:
+def _beside(place: Coordinates, rng: Random) -> Polynomial | None:
     """A polynomial in u that vanishes where the finite module Q[x]/I over Q[u] has torsion; 1 without any.
 
     Off its zeros the module is torsion-free, so that I is unmixed there; along a curve it is free.
@@ -183,7 +184,7 @@ def _beside(place: Coordinates, rng: random.Random) -> Polynomial | None:
     return place.back(product)
 
 
-def _at_fibre(place: Coordinates, rng: random.Random) -> Splitting:
+def _at_fibre(place: Coordinates, rng: Random) -> Splitting:
     """One rational fibre u = u0.
 
     Lemma: if Q[x]/I is finite over Q[u], u is independent modulo I and the algebra of one fibre is a field
@@ -231,7 +232,7 @@ def _minimal_polynomial(fibre: Algebra, form: Polynomial) -> fmpq_poly:
     return matrix.minpoly()
 
 
-def _forms(ring: Ring, rng: random.Random) -> Iterator[Polynomial]:
+def _forms(ring: Ring, rng: Random) -> Iterator[Polynomial]:
     """A random linear form (which separates points), then simple ones."""
 
     def mixed(width: int) -> Polynomial:
@@ -320,7 +321,7 @@ def _dependency(rows: Sequence[Polynomial]) -> list[fmpq] | None:
 
 
 def _independent_modulo_prime(rows: Sequence[Polynomial], position: dict[Exponents, int]) -> bool:
-    prime = 2**61 - 1
+    prime = chance.sparing_prime()
     table = [0] * (len(rows) * len(position))
     for i, p in enumerate(rows):
         if not p:

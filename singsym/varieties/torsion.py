@@ -6,19 +6,19 @@ Algebraic Geometry", ch. 5); over the principal ideal domain Q[u] of a curve, to
 
 from __future__ import annotations
 
-import random
 from collections.abc import Sequence
 from dataclasses import dataclass
+from random import Random
 
 from flint import fmpq, fmpq_mat, fmpz_mpoly_vec, nmod_mat, nmod_poly
 
 from singsym.elimination.budget import current
+from singsym.elimination.chance import random_primes
 from singsym.elimination.engines.division import remainder
 from singsym.minors.determinant import TooManyTerms, block_determinants
 from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
 
 Exponents = tuple[int, ...]
-_PRIME = 2305843009213693951
 _LARGEST = 80
 _LARGEST_DETERMINANT, _MOST_TERMS = 40, 20_000
 
@@ -137,7 +137,7 @@ def off_free(ring: Ring, basis: Sequence[Polynomial], within: Sequence[Exponents
     return product.squarefree_part()
 
 
-def torsion_support(module: Presentation, rng: random.Random) -> list[list[fmpq]]:
+def torsion_support(module: Presentation, rng: Random) -> list[list[fmpq]]:
     """Polynomials in u (coefficients, constant first) over whose zeros there may be torsion; [] proves none.
 
     Lemma: there is torsion over c exactly where [c - action | -rest(c)] drops rank, and then every
@@ -149,35 +149,34 @@ def torsion_support(module: Presentation, rng: random.Random) -> list[list[fmpq]
         return []
     characteristic = fmpq_mat([list(row) for row in module.action]).charpoly()
     entries = [c for row in module.action for c in row] + [c for r in module.rest for c in r.values()]
-    if any(int(c.q) % _PRIME == 0 for c in entries):
-        return [f.coeffs() for f, _ in characteristic.factor()[1]]
-    first = nmod_poly([_residue(c) for c in characteristic.coeffs()], _PRIME)
+    prime = next(random_primes("torsion", bits=62, avoiding=(int(c.q) for c in entries)))
+    first = nmod_poly([_residue(c, prime) for c in characteristic.coeffs()], prime)
     common = first
     for _ in range(2):
-        common = common.gcd(_determinant(module, rng))
+        common = common.gcd(_determinant(module, rng, prime))
         if common.degree() == 0:
             return []
     coefficients = (f.coeffs() for f, _ in characteristic.factor()[1])
-    return [c for c in coefficients if _may_share_root(c, common)]
+    return [c for c in coefficients if _may_share_root(c, common, prime)]
 
 
-def _may_share_root(coefficients: Sequence[fmpq], common: nmod_poly) -> bool:
-    if any(int(c.q) % _PRIME == 0 for c in coefficients):
+def _may_share_root(coefficients: Sequence[fmpq], common: nmod_poly, prime: int) -> bool:
+    if any(int(c.q) % prime == 0 for c in coefficients):
         return True
-    return bool(nmod_poly([_residue(c) for c in coefficients], _PRIME).gcd(common).degree() > 0)
+    return bool(nmod_poly([_residue(c, prime) for c in coefficients], prime).gcd(common).degree() > 0)
 
 
-def _residue(c: fmpq) -> int:
-    return int(c.p) * pow(int(c.q), -1, _PRIME) % _PRIME
+def _residue(c: fmpq, prime: int) -> int:
+    return int(c.p) * pow(int(c.q), -1, prime) % prime
 
 
-def _determinant(module: Presentation, rng: random.Random) -> nmod_poly:
+def _determinant(module: Presentation, rng: Random, prime: int) -> nmod_poly:
     """det(u - action - rest(u) Z) modulo the prime, for a random Z, by interpolation."""
     size = len(module.action)
     strips = sorted({a for r in module.rest for a, _ in r})
-    mix = {a: [rng.randrange(_PRIME) for _ in range(size)] for a in strips}
-    action = [[_residue(c) for c in row] for row in module.action]
-    rest = [[(a, b, _residue(c)) for (a, b), c in r.items()] for r in module.rest]
+    mix = {a: [rng.randrange(prime) for _ in range(size)] for a in strips}
+    action = [[_residue(c, prime) for c in row] for row in module.action]
+    rest = [[(a, b, _residue(c, prime)) for (a, b), c in r.items()] for r in module.rest]
     degree = size + sum(max((b for _, b, _ in r), default=0) for r in rest)
     values = []
     for point in range(degree + 1):
@@ -186,21 +185,21 @@ def _determinant(module: Presentation, rng: random.Random) -> nmod_poly:
             row = [-c for c in action[i]]
             row[i] += point
             for a, b, c in rest[i]:
-                scale = c * pow(point, b, _PRIME)
+                scale = c * pow(point, b, prime)
                 row = [e - scale * z for e, z in zip(row, mix[a], strict=True)]
-            rows.append([e % _PRIME for e in row])
-        values.append(nmod_mat(rows, _PRIME).det())
-    return _interpolated([int(v) for v in values])
+            rows.append([e % prime for e in row])
+        values.append(nmod_mat(rows, prime).det())
+    return _interpolated([int(v) for v in values], prime)
 
 
-def _interpolated(values: Sequence[int]) -> nmod_poly:
+def _interpolated(values: Sequence[int], prime: int) -> nmod_poly:
     """The polynomial with these values at 0, 1, 2, ... by Newton's divided differences."""
     table = list(values)
     for k in range(1, len(table)):
-        inverse = pow(k, -1, _PRIME)
+        inverse = pow(k, -1, prime)
         for i in range(len(table) - 1, k - 1, -1):
-            table[i] = (table[i] - table[i - 1]) * inverse % _PRIME
-    result = nmod_poly([table[-1]], _PRIME)
+            table[i] = (table[i] - table[i - 1]) * inverse % prime
+    result = nmod_poly([table[-1]], prime)
     for k in range(len(table) - 2, -1, -1):
-        result = result * nmod_poly([-k % _PRIME, 1], _PRIME) + table[k]
+        result = result * nmod_poly([-k % prime, 1], prime) + table[k]
     return result

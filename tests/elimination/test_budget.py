@@ -14,7 +14,7 @@ from singsym.elimination.verdict import Answer, Verdict, weakest
 
 def test_a_part_ends_with_the_whole() -> None:
     whole = Budget(0.05, 100)
-    part = whole.part(seconds=10, memory_mb=500)
+    part = whole.part(work=10, memory_mb=500)
     assert part.memory_mb == 100
     time.sleep(0.06)
     with pytest.raises(BudgetExceeded, match="a test"):
@@ -41,7 +41,7 @@ def test_the_enclosing_budget_holds() -> None:
 
 def test_cancelled_from_outside() -> None:
     stop: list[bool] = []
-    budget = Budget(cancelled=lambda: bool(stop)).part(seconds=60)
+    budget = Budget(cancelled=lambda: bool(stop)).part(work=60)
     budget.check()
     stop.append(True)
     with pytest.raises(Cancelled):
@@ -54,7 +54,7 @@ def test_pickled_budgets_keep_what_is_left() -> None:
 
 def test_verdicts() -> None:
     yes = Verdict.yes("modular", engine="msolve", reason="1 is in the ideal")
-    assert str(yes) == "yes (modular by msolve): 1 is in the ideal"
+    assert str(yes) == "yes (modular, 3 primes by msolve): 1 is in the ideal"
     assert (~yes).answer is Answer.NO
     assert (~Verdict.undecided("x")).is_undecided
     assert weakest() == "proven"

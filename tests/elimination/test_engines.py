@@ -11,6 +11,7 @@ from fractions import Fraction
 import pytest
 
 from singsym.elimination import engines, progress
+from singsym.elimination.chance import PRIMES
 from singsym.elimination.engines import checks, msolve, registry
 from singsym.elimination.engines.base import EngineAnswer, EngineFailure, Task
 from singsym.elimination.ideal import Ideal
@@ -94,10 +95,34 @@ def test_checks_find_what_is_wrong() -> None:
         basis = Ideal(R, task.generators).groebner_basis()
     right = EngineAnswer((basis,), "engine")
     assert checks.check_pairs(task, right)
-    assert checks.compare_modulo_prime(task, right, lambda _: right)
-    assert not checks.compare_modulo_prime(task, right, lambda _: None)
+    assert checks.compare_modulo_primes(task, right, lambda *_: right)
+    assert not checks.compare_modulo_primes(task, right, lambda *_: None)
     with pytest.raises(EngineFailure, match="differs from that of other"):
-        checks.compare_modulo_prime(task, right, lambda _: EngineAnswer(((x,),), "other"))
+        checks.compare_modulo_primes(task, right, lambda *_: EngineAnswer(((x,),), "other"))
+
+
+def test_bases_are_compared_modulo_several_primes_by_another_engine_first() -> None:
+    task = Task("groebner", R, (x**2 - y, x * y - 1))
+    right = EngineAnswer(((y**2 - x, x * y - 1, x**2 - y),), "engine")
+    asked: list[tuple[int, bool]] = []
+
+    def ask(modulo: Task, another: bool) -> EngineAnswer:
+        asked.append((modulo.characteristic, another))
+        return right
+
+    assert checks.compare_modulo_primes(task, right, ask)
+    assert [another for _, another in asked] == [True, False, False]
+    assert len({prime for prime, _ in asked}) == PRIMES
+
+
+@pytest.mark.parametrize("k", range(-5, 6))
+def test_a_missing_component_is_found_wherever_it_is(k: int) -> None:
+    """Of the points (0, 0) and (k, -1) the first is left, on the line x + k y = 0 through both."""
+    task = Task("minimal_primes", R, (x + k * y, y**2 + y))
+    with pytest.raises(EngineFailure, match="component is missing"):
+        checks.check_ideals(task, EngineAnswer(((x, y),), "liar"), registry.solve)
+    whole = EngineAnswer(((x, y), (x - k, y + 1)), "engine")
+    assert checks.check_ideals(task, whole, registry.solve) == "proven"
 
 
 def test_long_work_is_reported() -> None:

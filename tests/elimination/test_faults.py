@@ -16,7 +16,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from singsym.elimination import engines
+from singsym.elimination import engines, patience
 from singsym.elimination.budget import Budget, BudgetExceeded, Cancelled, Undecided
 from singsym.elimination.engines import registry
 from singsym.elimination.ideal import Ideal
@@ -220,7 +220,7 @@ def test_broken_engines_leave_the_time_to_flint(
     """FLINT has a moment at first, then the others, which fail, then FLINT has the rest."""
     monkeypatch.setenv("SINGSYM_SINGULAR", script(tmp_path, program))
     monkeypatch.setenv("SINGSYM_MSOLVE", script(tmp_path, program))
-    monkeypatch.setitem(registry._PATIENCE, "flint", 0.01)
+    monkeypatch.setitem(patience.FIRST, "flint", patience.Patience(0.01, "msolve is asked"))
     ideal = Ideal(*katsura(6))
     assert ideal.vector_space_dimension == 64
     assert (ideal.certainty, ideal.engine) == ("proven", "flint")
@@ -298,7 +298,7 @@ def test_no_engine_at_all(monkeypatch: pytest.MonkeyPatch, cyclic) -> None:
 
 WORK = """
 import sys, threading
-from singsym.elimination import engines
+from singsym.elimination import engines, patience
 from singsym.elimination.engines import registry
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Ring

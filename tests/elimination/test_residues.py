@@ -1,34 +1,51 @@
 """Ideals modulo a prime: what they say must be so over Q for small coefficients."""
 
+from random import Random
+
 import pytest
 
-from singsym.elimination import engines
+from singsym.elimination import chance, engines
+from singsym.elimination.chance import PRIMES
 from singsym.elimination.engines.registry import over_rationals
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.memo import remember
-from singsym.elimination.residues import residue_basis, seems_to_contain
+from singsym.elimination.residues import residues
 from singsym.polynomials import Ring
 
 R = Ring(("x", "y"))
 x, y = R.gens
+needs_engine = pytest.mark.skipif(
+    not (engines.has("msolve") or engines.has("singular")), reason="no engine modulo primes"
+)
 HYPERBOLA = Ideal(R, (x**2 - 2, x * y - 1))
 
 
-def test_without_an_engine_nothing_is_ruled_out() -> None:
-    with engines.use("flint"):
-        assert residue_basis(HYPERBOLA) is None
-        assert seems_to_contain((x**2 - 2, 2 * y - x), (x - 2 * y, x**2 - 2))
+def test_without_an_engine_there_are_none() -> None:
+    with engines.use("flint"), pytest.raises(engines.EngineUnavailable):
+        next(residues(HYPERBOLA))
 
 
-@pytest.mark.engines
-@pytest.mark.skipif(not (engines.has("msolve") or engines.has("singular")), reason="no engine modulo primes")
+@needs_engine
 def test_members_and_others_are_told_apart() -> None:
-    basis = residue_basis(HYPERBOLA)
-    assert basis is not None
-    assert seems_to_contain(basis, (x - 2 * y, x**2 - 2))
-    assert seems_to_contain(basis, (R.zero,))
-    assert not seems_to_contain(basis, (x - 2 * y, x - y))
-    assert residue_basis(Ideal(R, (x, x * y - 1))) == (R.one,)
+    found = list(residues(HYPERBOLA))
+    assert len({residue.prime for residue in found}) == PRIMES
+    for residue in found:
+        assert residue.contain((x - 2 * y, x**2 - 2))
+        assert residue.contain((R.zero,))
+        assert not residue.contain((x - 2 * y, x - y))
+        assert not residue.is_unit
+    assert all(residue.is_unit for residue in residues(Ideal(R, (x, x * y - 1))))
+
+
+@needs_engine
+def test_primes_divide_no_coefficient(monkeypatch: pytest.MonkeyPatch) -> None:
+    """p x = 1 has a solution, but not modulo p, and so have y = p x and so on; all draw the same."""
+    monkeypatch.setattr(chance, "random", lambda *about: Random(1))
+    for p in [residue.prime for residue in residues(Ideal(R, (x,)))]:
+        for equations in ((p * x - 1, y), (y / p - 1, x - 1), (y - p, x * y - 1)):
+            found = list(residues(Ideal(R, equations)))
+            assert p not in [residue.prime for residue in found]
+            assert not any(residue.is_unit for residue in found)
 
 
 @pytest.mark.parametrize("short", [False, True])

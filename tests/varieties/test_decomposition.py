@@ -1,5 +1,6 @@
 """Decomposition: varieties known in advance, unions of known primes, and the curves of the 2-DOF linkage."""
 
+from contextlib import AbstractContextManager, suppress
 from fractions import Fraction
 from itertools import combinations
 
@@ -8,9 +9,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from singsym.elimination import engines
-from singsym.elimination.budget import Budget, BudgetExceeded
+from singsym.elimination.budget import Budget, BudgetExceeded, Undecided
+from singsym.elimination.chaos import chaos
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.memo import forget
+from singsym.elimination.patience import scaled
 from singsym.polynomials import AlgebraicConstant, Polynomial, Ring
 from singsym.varieties.decomposition import decompose
 
@@ -29,6 +32,30 @@ def zeros(*equations: Polynomial, nonzero: Equations = (), ring: Ring = R) -> se
 
 def bases(*ideals: Equations) -> set[frozenset[Polynomial]]:
     return {frozenset(Ideal(R, ideal).groebner_basis()) for ideal in ideals}
+
+
+# -- less time -----------------------------------------------------------------------------------------
+
+
+def curve_and_points() -> Equations:
+    """Combinations a f + b g with linear a, b: zero on the curve f = g = 0 and where the rows (a, b) are
+    dependent, a cubic curve, and one of the equations holds as well, which leaves finitely many points."""
+    f, g = x**2 + y**2 + z**2 + 1, x * y - z + x
+    rows = (
+        (3 * y - 2 * x + 1, x - y - z),
+        (2 * x + 2 * z - 1, y + 3 * z + 2),
+        (x + y - 3 * z, 2 * x - y + z + 1),
+    )
+    return tuple(a * f + b * g for a, b in rows)
+
+
+@pytest.mark.parametrize("hurry", [scaled(1e-5), chaos(2, 0.3)])
+def test_what_a_hurry_leaves_whole_is_split_in_the_same_process(
+    hurry: AbstractContextManager[object],
+) -> None:
+    with hurry, suppress(Undecided):
+        decompose(curve_and_points(), ring=R)
+    assert [(c.dimension, c.prime) for c in decompose(curve_and_points(), ring=R)] == [(1, True), (0, True)]
 
 
 # -- single cases --------------------------------------------------------------------------------------

@@ -16,12 +16,11 @@ from singsym.elimination.engines.registry import (
     close,
     has,
     install,
-    patiently,
-    proof_patience,
     solve,
     status,
     use,
 )
+from singsym.elimination.patience import patiently, proof_patience
 
 __all__ = [
     "Engine",

@@ -6,13 +6,13 @@ Comput. 35 (2003) 403-419, for the comparison modulo a prime.
 
 from __future__ import annotations
 
-import random
-import time
 from collections.abc import Callable, Sequence
 from itertools import combinations
 
-from flint import fmpq_mpoly, fmpz, fmpz_mpoly, fmpz_mpoly_vec
+from flint import fmpq_mpoly, fmpz_mpoly, fmpz_mpoly_vec
 
+from singsym.elimination import chance
+from singsym.elimination.chance import PRIMES, numbers_in, random_primes
 from singsym.elimination.engines.base import EngineAnswer, EngineFailure, Task
 from singsym.elimination.engines.division import remainder, s_polynomial
 from singsym.elimination.verdict import Certainty
@@ -21,7 +21,10 @@ from singsym.polynomials import Polynomial, Ring
 Exponents = tuple[int, ...]
 ModularBasis = frozenset[tuple[tuple[Exponents, int], ...]]
 
-_PAIR_SECONDS = 1.0
+_PAIR_BITS = 1e9
+"""So many operations with bits, a second or two, may take the S-pairs of a basis together."""
+_MOST_PRODUCTS = 50
+"""So many polynomials are looked at, each by a basis, to prove that a decomposition is complete."""
 
 
 def check_inputs(task: Task, answer: EngineAnswer) -> None:
@@ -45,23 +48,25 @@ def check_pairs(task: Task, answer: EngineAnswer) -> bool:
 
 
 def _pairs_reduce(basis: list[fmpz_mpoly], vector: fmpz_mpoly_vec, engine: str) -> bool:
-    """Reduce the S-pairs that Buchberger's two criteria leave, in random order for a second at most.
+    """Reduce the S-pairs that Buchberger's two criteria leave: all, or some at random where that is too dear.
 
-    Where that would not be enough for all of them, a fifth of a second is.
+    A reduction takes about as many operations as the S-polynomial has terms times the bits of a polynomial.
     """
     leading = [p.monomial(0) for p in basis]
-    pairs = list(combinations(range(len(basis)), 2))
-    random.Random(len(pairs)).shuffle(pairs)
-    start = time.monotonic()
-    for done, (i, j) in enumerate(pairs):
-        passed = time.monotonic() - start
-        if passed > _PAIR_SECONDS / 5 and passed * len(pairs) > _PAIR_SECONDS * done:
-            return False
-        if not any(map(min, leading[i], leading[j])) or _chained(leading, i, j):
-            continue
+    pairs = [
+        (i, j)
+        for i, j in combinations(range(len(basis)), 2)
+        if any(map(min, leading[i], leading[j])) and not _chained(leading, i, j)
+    ]
+    bits = sum(int(c).bit_length() for p in basis for c in p.coeffs())
+    affordable = int(_PAIR_BITS * len(basis) ** 2 / (2 * sum(map(len, basis)) * bits))
+    complete = len(pairs) <= affordable
+    if not complete:
+        pairs = chance.random("S-pairs", len(pairs), bits).sample(pairs, max(1, affordable // 5))
+    for i, j in pairs:
         if remainder(s_polynomial(basis[i], basis[j]), vector):
             raise EngineFailure(engine, "returned no Groebner basis: an S-pair does not reduce to 0")
-    return True
+    return complete
 
 
 def _chained(leading: Sequence[Exponents], i: int, j: int) -> bool:
@@ -87,33 +92,31 @@ def modular_basis(basis: Sequence[Polynomial], prime: int) -> ModularBasis | Non
     return frozenset(found)
 
 
-def random_prime() -> int:
-    """A random prime of 31 bits, which is what all engines take."""
-    while not fmpz(candidate := random.SystemRandom().randrange(2**30, 2**31 - 1) | 1).is_prime():
-        pass
-    return candidate
-
-
-def compare_modulo_prime(
-    task: Task, answer: EngineAnswer, ask: Callable[[Task], EngineAnswer | None]
+def compare_modulo_primes(
+    task: Task, answer: EngineAnswer, ask: Callable[[Task, bool], EngineAnswer | None]
 ) -> bool:
-    """Compare the basis with one that another engine computes modulo a random prime.
+    """Compare the basis with those that engines compute modulo random primes, another one at the first.
 
-    `ask` runs a task, or returns `None` where it cannot.  Raises `EngineFailure` after two primes at which
-    the bases differ; False where nothing could be compared.
+    `ask` runs a task, by another engine if that is wanted, or returns `None` where it cannot.  Raises
+    `EngineFailure` after two primes at which the bases differ; False where nothing could be compared.
     """
     opponents: list[str] = []
+    agreed = 0
+    primes = random_primes("bases", *task.generators, avoiding=numbers_in(task.generators))
     while len(opponents) < 2:
-        prime = random_prime()
+        prime = next(primes)
         mine = modular_basis(answer.ideals[0], prime)
         if mine is None:
             continue
-        other = ask(Task("groebner", task.ring, task.generators, (), prime))
+        other = ask(Task("groebner", task.ring, task.generators, (), prime), agreed == 0)
         if other is None:
             return False
-        if modular_basis(other.ideals[0], prime) == mine:
+        if modular_basis(other.ideals[0], prime) != mine:
+            opponents.append(other.engine)
+            continue
+        agreed += 1
+        if agreed == PRIMES:
             return True
-        opponents.append(other.engine)
     raise EngineFailure(
         answer.engine, f"returned a wrong basis: it differs from that of {opponents[0]} modulo a prime"
     )
@@ -122,7 +125,7 @@ def compare_modulo_prime(
 def check_ideals(task: Task, answer: EngineAnswer, solve: Callable[[Task], EngineAnswer]) -> Certainty:
     """Check an elimination, a saturation or a decomposition; `solve` gives checked Groebner bases.
 
-    Raises `EngineFailure` where it is wrong; "modular" where equality rests on a random choice.
+    Raises `EngineFailure` where it is wrong; "modular" where equality is the engine's word.
     """
     ring, engine = task.ring, answer.engine
     if task.kind == "eliminate":
@@ -137,8 +140,7 @@ def check_ideals(task: Task, answer: EngineAnswer, solve: Callable[[Task], Engin
     if task.kind == "saturate":
         return "modular"
     basis = solve(Task("groebner", ring, task.generators)).ideals[0]
-    _check_complete(ring, basis, pieces, engine, solve)
-    return "proven"
+    return _check_complete(ring, basis, pieces, engine, solve)
 
 
 def _check_complete(
@@ -147,27 +149,42 @@ def _check_complete(
     pieces: Sequence[Sequence[Polynomial]],
     engine: str,
     solve: Callable[[Task], EngineAnswer],
-) -> None:
-    """Raise where the pieces leave out a component.
+) -> Certainty:
+    """Raise where the pieces leave out a component; "modular" where that rests on random numbers.
 
-    Lemma: a generic element of a piece vanishes on no component that lies outside that piece; so the product
-    of such elements is in the radical exactly when every component lies in a piece.
+    Lemma: let a piece have generators g_0, ..., g_m and e(t) = g_0 + g_1 t + ... + g_m t^m.  On a component
+    that lies outside the piece, e(t) is not the zero polynomial in t over the functions there, which have no
+    zero divisors: e(t) vanishes there for m numbers t at most.  So for one of any 1 + (the sum of the m of
+    all pieces) numbers t no e(t) vanishes on a component outside all pieces, nor does their product; while
+    on a component inside a piece all products vanish.
     """
-    rng = random.Random(len(basis))
-    product = ring.one
-    for piece in pieces:
-        useful = [p for p in piece if reduced_by(basis, p)]
-        if not useful:
-            return
-        element = sum((p * rng.randint(1, 9) for p in useful), start=ring.zero)
-        product = _remainder(basis, product * element)
-        if not product:
-            return
+    useful = [[p for p in piece if reduced_by(basis, p)] for piece in pieces]
+    if not all(useful):
+        return "proven"
+    enough = 1 + sum(len(generators) - 1 for generators in useful)
+    proven = enough <= _MOST_PRODUCTS
+    drawn = chance.random("pieces", *basis).sample(range(1, 10**6), chance.PRIMES)
+    for t in range(1, enough + 1) if proven else drawn:
+        product = ring.one
+        for generators in useful:
+            element = sum((p * t**k for k, p in enumerate(generators)), start=ring.zero)
+            product = _remainder(basis, product * element)
+        if product and not _vanishes(ring, basis, product, solve):
+            raise EngineFailure(engine, "returned an incomplete decomposition: a component is missing")
+    return "proven" if proven else "modular"
+
+
+def _vanishes(
+    ring: Ring,
+    basis: Sequence[Polynomial],
+    polynomial: Polynomial,
+    solve: Callable[[Task], EngineAnswer],
+) -> bool:
+    """Whether a polynomial vanishes on all zeros of a basis (Rabinowitsch)."""
     larger = ring.with_names((next(f"t{k}" for k in range(99) if f"t{k}" not in ring.names), *ring.names))
     system = [larger.convert(p) for p in basis]
-    system.append(1 - larger.gens[0] * larger.convert(product.squarefree_part()))
-    if solve(Task("groebner", larger, tuple(system))).ideals[0] != (larger.one,):
-        raise EngineFailure(engine, "returned an incomplete decomposition: a component is missing")
+    system.append(1 - larger.gens[0] * larger.convert(polynomial.squarefree_part()))
+    return solve(Task("groebner", larger, tuple(system))).ideals[0] == (larger.one,)
 
 
 def _remainder(basis: Sequence[Polynomial], polynomial: Polynomial) -> Polynomial:

@@ -21,6 +21,7 @@ from typing import Any
 
 from singsym.elimination.budget import Budget, BudgetExceeded
 from singsym.elimination.engines.base import EngineFailure
+from singsym.elimination.work import Meter
 
 _OUTPUT_LIMIT = 1 << 30
 _POLL_SECONDS = 0.05
@@ -144,9 +145,11 @@ class Child:
 
         Raises `BudgetExceeded` out of time or memory, `EngineFailure` when the child dies first.
         """
+        meter = Meter(self.process.pid)
         try:
             while (end := complete(self._buffer)) < 0:
-                self._wait(budget)
+                self._wait(budget, meter)
+            meter.charge()
             data = bytes(self._buffer[:end])
             del self._buffer[:end]
             return data
@@ -156,12 +159,15 @@ class Child:
 
     def wait_exit(self, budget: Budget) -> bytes:
         """All output, once the child has closed it; its exit status must be 0."""
+        meter = Meter(self.process.pid)
         try:
-            while self._wait(budget, closing=True):
+            while self._wait(budget, meter, closing=True):
                 pass
+            meter.charge()
             while (status := self.process.poll()) is None:
                 budget.check(f"waiting for {self.engine}")
                 time.sleep(0.001)
+                meter.charge()
         except BaseException:
             self.kill()
             raise
@@ -170,8 +176,9 @@ class Child:
             raise EngineFailure(self.engine, f"died with status {status}")
         return bytes(self._buffer)
 
-    def _wait(self, budget: Budget, closing: bool = False) -> bool:
+    def _wait(self, budget: Budget, meter: Meter, closing: bool = False) -> bool:
         """Take one chunk of output into the buffer; False at its end, if that is allowed."""
+        meter.charge()
         budget.check(f"waiting for {self.engine}")
         left = budget.remaining()
         pause = _POLL_SECONDS if left is None else min(_POLL_SECONDS, left)

@@ -9,14 +9,14 @@ import logging
 import os
 import subprocess
 import sys
-import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
 
-from singsym.elimination import progress
-from singsym.elimination.budget import Budget, BudgetExceeded, Undecided, current
+from singsym.elimination import patience, progress
+from singsym.elimination.attempts import attempt
+from singsym.elimination.budget import Budget, Undecided, current
 from singsym.elimination.engines import checks
 from singsym.elimination.engines.base import (
     Engine,
@@ -30,7 +30,8 @@ from singsym.elimination.engines.flint_engine import FlintEngine
 from singsym.elimination.engines.msolve import MsolveEngine
 from singsym.elimination.engines.singular import SingularEngine
 from singsym.elimination.engines.sympy_engine import SympyEngine
-from singsym.elimination.verdict import note
+from singsym.elimination.verdict import certainties, note, weakest
+from singsym.elimination.work import worked
 from singsym.polynomials import Polynomial
 
 log = logging.getLogger("singsym")
@@ -42,24 +43,12 @@ sympy = SympyEngine()
 
 _ENGINES: dict[str, Engine] = {e.name: e for e in (flint, msolve, singular, sympy)}
 _DEFAULT = ("flint", "msolve", "singular")
-# seconds after which the next engine is asked, when there is a next one
-_PATIENCE = {"flint": 1.5, "msolve": 300.0, "singular": 300.0, "sympy": 300.0}
-# the same for FLINT where msolve is the next one
-_FLINT_BEFORE_MSOLVE = 0.3
-# the same for the last engine, when the caller set no limit
-_LAST_PATIENCE, _DECOMPOSITION_PATIENCE = 3600.0, 120.0
-_CHECK_SECONDS = 20.0
-# a proof of what is known modulo primes may take so many times as long, between these limits
-_PROOF_FACTOR, _LEAST_PROOF, _MOST_PROOF = 4.0, 1.0, 3.0
-# the same of a short basis, which is often found by way of short ones
-_SHORT_PROOF = 10.0
-# so many times as long where a proof is worth waiting for
-_PATIENT = 10.0
+# a proof of what is known modulo primes may take so many times as long
+_PROOF_FACTOR = 4.0
 # what a short one has at most: terms in all, bits of a coefficient
 _FEW_TERMS, _FEW_BITS = 200, 32
 
 _allowed: ContextVar[tuple[str, ...]] = ContextVar("engines", default=_DEFAULT)
-_proof_patience: ContextVar[float] = ContextVar("proof patience", default=1.0)
 
 
 @contextmanager
@@ -90,26 +79,6 @@ def allowed() -> tuple[str, ...]:
     return _allowed.get()
 
 
-@contextmanager
-def patiently() -> Iterator[None]:
-    """Proofs over Q of what is known modulo primes may take much longer for the work inside.
-
-    >>> with patiently():
-    ...     proof_patience()
-    10.0
-    """
-    token = _proof_patience.set(_PATIENT)
-    try:
-        yield
-    finally:
-        _proof_patience.reset(token)
-
-
-def proof_patience() -> float:
-    """So many times as long as usual proofs are waited for here."""
-    return _proof_patience.get()
-
-
 def has(name: str) -> bool:
     """Whether an engine is installed and allowed here."""
     return name in allowed() and _ENGINES[name].available()
@@ -121,6 +90,7 @@ def solve(task: Task, budget: Budget | None = None) -> EngineAnswer:
     Raises `EngineUnavailable` (nobody can), `BudgetExceeded`, or `EngineFailure` (all of them failed).
     """
     budget = current(budget)
+    budget.ask(task.kind)
     candidates = [_ENGINES[n] for n in allowed() if _ENGINES[n].can(task) and _ENGINES[n].available()]
     if not candidates:
         raise EngineUnavailable(
@@ -128,13 +98,14 @@ def solve(task: Task, budget: Budget | None = None) -> EngineAnswer:
         )
     failures: list[Undecided] = []
     for engine in candidates:
-        patience = _patience(task, engine, candidates, budget.remaining())
-        if (answer := _attempt(engine, task, patience, budget, failures)) is not None:
+        work, share = _patience(task, engine, candidates, budget.remaining() is not None)
+        if (answer := _attempt(engine, task, work, share, budget, failures)) is not None:
             return _noted(task, answer)
     # engines that broke down give FLINT back the time that it was refused before
     broken = any(isinstance(failure, EngineFailure) for failure in failures)
     if broken and flint in candidates[:-1]:
-        answer = _attempt(flint, task, None if budget.deadline else _LAST_PATIENCE, budget, failures)
+        work = None if budget.remaining() is not None else patience.LAST.work
+        answer = _attempt(flint, task, work, 1.0, budget, failures)
         if answer is not None:
             return _noted(task, answer)
     raise EngineFailure(", ".join(e.name for e in candidates), "; ".join(map(str, failures)))
@@ -148,30 +119,34 @@ def _noted(task: Task, answer: EngineAnswer) -> EngineAnswer:
 
 
 def _attempt(
-    engine: Engine, task: Task, patience: float | None, budget: Budget, failures: list[Undecided]
+    engine: Engine,
+    task: Task,
+    work: float | None,
+    share: float,
+    budget: Budget,
+    failures: list[Undecided],
 ) -> EngineAnswer | None:
-    """The checked answer; `None`, with the failure noted, where there is none within so many seconds."""
-    start = time.monotonic()
-    try:
-        answer = _run(engine, task, budget.part(patience))
-        return _checked(task, answer, time.monotonic() - start, budget)
-    except (EngineFailure, BudgetExceeded) as failure:
-        budget.check(task.kind)
-        failures.append(failure)
-        log.debug("%s", failure)
-        return None
+    """The checked answer; `None`, with the failure noted, where there is none within so much work."""
+    start = worked()
+    with attempt(task.kind, work, share=share, part_of=budget, failures=failures) as own:
+        answer = _run(engine, task, own)
+        return _checked(task, answer, worked() - start, budget)
+    return None
 
 
-def _patience(task: Task, engine: Engine, candidates: list[Engine], left: float | None) -> float | None:
-    """Seconds for this engine: all that is left for the last one, but never without end outside Python."""
+def _patience(
+    task: Task, engine: Engine, candidates: list[Engine], limited: bool
+) -> tuple[float | None, float]:
+    """Work for this engine, and the largest share of what is left.
+
+    The last one may have all that is left, but never without end outside Python.
+    """
     if engine is not candidates[-1]:
-        patience = _PATIENCE[engine.name]
-        if candidates[:2] == [flint, msolve] and engine is flint:
-            patience = _FLINT_BEFORE_MSOLVE
-        return min(patience, float("inf") if left is None else left / 2)
-    if left is not None or engine.name in ("flint", "sympy"):
-        return None
-    return _LAST_PATIENCE if task.kind == "groebner" else _DECOMPOSITION_PATIENCE
+        before_msolve = engine is flint and candidates[1] is msolve
+        return (patience.FLINT_BEFORE_MSOLVE if before_msolve else patience.FIRST[engine.name]).work, 0.5
+    if limited or engine.name in ("flint", "sympy"):
+        return None, 1.0
+    return (patience.LAST if task.kind == "groebner" else patience.LAST_DECOMPOSITION).work, 1.0
 
 
 def _run(engine: Engine, task: Task, budget: Budget) -> EngineAnswer:
@@ -184,13 +159,14 @@ def _run(engine: Engine, task: Task, budget: Budget) -> EngineAnswer:
         return engine.run(task, budget)
 
 
-def _checked(task: Task, answer: EngineAnswer, seconds: float, budget: Budget) -> EngineAnswer:
-    """The answer, which took so many seconds, with a lower certainty where a check could not be made."""
+def _checked(task: Task, answer: EngineAnswer, work: float, budget: Budget) -> EngineAnswer:
+    """The answer, which took so much work, with a lower certainty where a check could not be made."""
     if task.characteristic:
         return answer
     if task.kind != "groebner":
-        certainty = checks.check_ideals(task, answer, lambda t: solve(t, budget))
-        return replace(answer, certainty=certainty)
+        with certainties() as seen:
+            certainty = checks.check_ideals(task, answer, lambda t: solve(t, budget))
+        return replace(answer, certainty=weakest(certainty, *seen))
     if len(answer.ideals) != 1:
         raise EngineFailure(answer.engine, f"returned {len(answer.ideals)} bases for one ideal")
     checks.check_inputs(task, answer)
@@ -203,32 +179,35 @@ def _checked(task: Task, answer: EngineAnswer, seconds: float, budget: Budget) -
             raise EngineFailure(answer.engine, "returned a wrong basis: it differs from FLINT's")
         return replace(answer, certainty="proven")
     if answer.certainty == "modular":
-        exact = over_rationals(task, seconds, _is_short(answer.ideals[0]), budget)
+        exact = over_rationals(task, work, _is_short(answer.ideals[0]), budget)
         if exact is not None:
             if set(exact) != set(answer.ideals[0]):
                 raise EngineFailure(answer.engine, "returned a wrong basis: it differs from that over Q")
             return replace(answer, certainty="proven")
-    compared = checks.compare_modulo_prime(task, answer, lambda t: _second_opinion(t, answer.engine, budget))
+
+    def ask(task: Task, another: bool) -> EngineAnswer | None:
+        return _modulo(task, answer.engine if another else "", budget)
+
+    compared = checks.compare_modulo_primes(task, answer, ask)
     return answer if complete and compared else replace(answer, certainty="modular")
 
 
 def over_rationals(
-    task: Task, seconds: float, short: bool, budget: Budget | None = None
+    task: Task, work: float, short: bool, budget: Budget | None = None
 ) -> tuple[Polynomial, ...] | None:
     """The basis by an engine that computes over Q, as msolve's word rests on primes; None where it is slow.
 
-    seconds: how long the answer took modulo primes; short: whether that is short.
+    work: how long the answer took modulo primes; short: whether that is short.
     """
     engine: Engine = singular if has(singular.name) else flint
     if not has(engine.name):
         return None
     kind = "slim" if short and engine is singular else "groebner"
-    usual = _SHORT_PROOF if short else min(max(_PROOF_FACTOR * seconds, _LEAST_PROOF), _MOST_PROOF)
-    try:
-        return engine.run(replace(task, kind=kind), current(budget).part(usual * proof_patience())).ideals[0]
-    except (EngineFailure, BudgetExceeded) as failure:
-        log.debug("no proof: %s", failure)
-        return None
+    usual = min(max(_PROOF_FACTOR * work, patience.LEAST_PROOF.work), patience.MOST_PROOF.work)
+    work = patience.SHORT_PROOF.work if short else usual
+    with attempt("a proof over Q", work, share=0.5, part_of=current(budget)) as own:
+        return engine.run(replace(task, kind=kind), own).ideals[0]
+    return None
 
 
 def _is_short(basis: Sequence[Polynomial]) -> bool:
@@ -237,16 +216,15 @@ def _is_short(basis: Sequence[Polynomial]) -> bool:
     )
 
 
-def _second_opinion(task: Task, asked: str, budget: Budget) -> EngineAnswer | None:
-    """The same task by another engine if there is one, else by the same engine once more."""
+def _modulo(task: Task, asked: str, budget: Budget) -> EngineAnswer | None:
+    """The answer modulo a prime, if possible of another engine than one that was asked."""
     others: tuple[Engine, ...] = (msolve, singular)
     order = sorted(others, key=lambda e: e.name == asked)
     for engine in order:
         if engine.can(task) and engine.available():
-            try:
-                return engine.run(task, budget.part(_CHECK_SECONDS))
-            except (EngineFailure, BudgetExceeded) as failure:
-                log.debug("no second opinion: %s", failure)
+            work = patience.SECOND_OPINION.work
+            with attempt("a second opinion", work, share=0.5, part_of=budget) as own:
+                return engine.run(task, own)
     return None
 
 

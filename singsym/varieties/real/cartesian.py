@@ -9,15 +9,16 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache, partial
 from math import hypot
 
+from singsym.elimination.attempts import attempt
 from singsym.elimination.budget import Undecided, current
 from singsym.elimination.eliminate import without_zeros_of
+from singsym.elimination.engines import EngineUnavailable
 from singsym.elimination.ideal import Ideal
-from singsym.elimination.residues import residue_basis, seems_to_contain
+from singsym.elimination.residues import Residues, residues
 from singsym.elimination.verdict import note, noted_if_true, unnoted, weakest
 from singsym.polynomials import Polynomial, Ring
 from singsym.polynomials.remainders import remainder
@@ -139,7 +140,7 @@ class Cartesian:
     def based(self, seconds: float) -> tuple[Ideal, ...]:
         """Those of the ideals whose Groebner bases are found in so many seconds."""
         found: list[Ideal] = []
-        with suppress(Undecided), current().part(seconds), unnoted():
+        with attempt("bases that hold polynomials", seconds), unnoted():
             for ideal in self._ideals:
                 ideal.groebner_basis()
                 found.append(ideal)
@@ -166,30 +167,33 @@ class Cartesian:
         )
 
     def _is_off(self, ideal: Ideal, seconds: float | None) -> bool:
-        """Whether an ideal has no zero, or none off some exclusion; first modulo a prime."""
-        convert = ideal.ring.convert
-        excluded = [tuple(map(convert, group)) for group in self.system.exclusions]
+        """Whether an ideal has no zero, or none off some exclusion; first modulo a prime.
+
+        Without a proof it takes several primes, modulo which it is so in one and the same way.
+        """
+        suspected = _Suspected(True, tuple(tuple(map(ideal.ring.convert, g)) for g in self.system.exclusions))
+        primes = residues(ideal, (p for group in suspected.excluded for p in group))
+        what = "a proof that there is no complex point"
         try:
-            residues = residue_basis(ideal)
-        except Undecided:
-            current().check("a proof that there is no complex point")
-            return False
-        may_be_unit = residues in (None, (ideal.ring.one,))
-        if residues is None:
+            suspected = suspected.modulo(next(primes))
+        except EngineUnavailable:
             seconds = None
-        elif not may_be_unit:
-            excluded = [group for group in excluded if seems_to_contain(residues, group)]
-        if not may_be_unit and not excluded:
-            return False
-        try:
-            with current().part(seconds):
-                return (may_be_unit and ideal.is_unit()) or any(map(partial(_vanish_on, ideal), excluded))
         except Undecided:
-            current().check("a proof that there is no complex point")
+            current().check(what)
+            return False
+        if suspected.is_nothing:
+            return False
+        with attempt(what, seconds):
+            return suspected.is_proven(ideal)
         if seconds is None:
             return False
-        note("modular")
-        return True
+        with attempt(what):
+            for residue in primes:
+                suspected = suspected.modulo(residue)
+            if not suspected.is_nothing:
+                note("modular")
+                return True
+        return False
 
     @property
     def left_out(self) -> int:
@@ -231,6 +235,27 @@ class Cartesian:
         )
 
 
+@dataclass(frozen=True)
+class _Suspected:
+    """How there may be no zero of an ideal left: it has none, or all polynomials of an exclusion vanish."""
+
+    unit: bool
+    excluded: tuple[Group, ...]
+
+    @property
+    def is_nothing(self) -> bool:
+        return not self.unit and not self.excluded
+
+    def modulo(self, residue: Residues) -> _Suspected:
+        """What is so modulo a prime, too."""
+        kept = self.excluded if residue.is_unit else tuple(filter(residue.contain, self.excluded))
+        return _Suspected(self.unit and residue.is_unit, kept)
+
+    def is_proven(self, ideal: Ideal) -> bool:
+        """Whether one of them is so over Q."""
+        return (self.unit and ideal.is_unit()) or any(map(partial(_vanish_on, ideal), self.excluded))
+
+
 def _without_squares(p: Polynomial, private: set[str]) -> Polynomial | None:
     """f where p = 0 says that a sum of squares of the private variables is f; None where it does not."""
     places = [i for i, name in enumerate(p.ring.names) if name in private]
@@ -254,12 +279,10 @@ def _vanish_on(ideal: Ideal, polynomials: Group) -> bool:
 
     Half of the time is for the first way, which takes one Groebner basis over Q for all.
     """
-    left = current().remaining()
     known = False
-    with suppress(Undecided), current().part(None if left is None else left / 2), unnoted() as seen:
+    with attempt("a proof that polynomials vanish", share=0.5), unnoted() as seen:
         ideal.groebner_basis()
         known = weakest(*seen) == "proven"
-    current().check("a proof that polynomials vanish")
     return all(
         (known and ideal.contains(p)) or Ideal(*without_zeros_of(ideal.ring, ideal.generators, p)).is_unit()
         for p in polynomials

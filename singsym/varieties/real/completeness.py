@@ -10,9 +10,10 @@ from collections.abc import Iterator, Sequence
 
 from flint import fmpz_mpoly_vec, nmod_mat, nmod_poly
 
+from singsym.elimination.chance import random_primes
 from singsym.elimination.engines.division import remainder
 from singsym.polynomials import Polynomial
-from singsym.varieties.real.parametrization import Parametrization, primes, reconstruct
+from singsym.varieties.real.parametrization import Parametrization, reconstruct
 from singsym.varieties.real.quotient import Check, Monomial, standard_monomials
 
 _MOST = 40
@@ -60,7 +61,7 @@ def _vanishing(
     modulus, residues = 1, [0] * (count * len(standard))
     pivots: list[int] | None = None
     previous: list[int] | None = None
-    for used, prime in enumerate(primes()):
+    for used, prime in enumerate(random_primes("nilpotents", bits=62)):
         check()
         if used == _PRIMES:
             return

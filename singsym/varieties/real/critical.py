@@ -18,6 +18,8 @@ from functools import partial
 from math import comb, prod
 from random import Random
 
+from singsym.elimination import chance
+from singsym.elimination.attempts import attempt
 from singsym.elimination.budget import Budget, Undecided, current
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.verdict import noted_if_true
@@ -88,7 +90,7 @@ def component_samples(
     # finitely many critical and singular points together: then the piece is reduced and nothing is left
     chosen = next(_choices(piece, known))
     try:
-        return _critical_points(piece, known, chosen, nonzero, Random(5), budget)
+        return _critical_points(piece, known, chosen, nonzero, chance.random("critical points"), budget)
     except NotZeroDimensional:
         found, singular = regular_samples(piece, known, budget, nonzero=nonzero)
     return (*found, *sample_points(ring, singular.generators, budget, nonzero=nonzero))
@@ -114,7 +116,7 @@ def regular_samples(
     budget = current(budget)
     known = _holding(piece.component, equations)
     chosen, border, singular = _regular_part(piece, known, budget)
-    random = Random(5)
+    random = chance.random("critical points")
     for _ in range(_CENTRES):
         try:
             outside = (*nonzero, *border)
@@ -170,7 +172,7 @@ def _choices(piece: PurePiece, known: tuple[Polynomial, ...]) -> Iterator[tuple[
     if len(generators) == codimension:
         yield tuple(generators)
         return
-    random = Random(2)
+    random = chance.random("choices of equations")
     if len(independent := _independent(generators, codimension, random)) == codimension:
         yield independent
     for _ in range(3):
@@ -184,7 +186,7 @@ def _independent(generators: Sequence[Polynomial], count: int, random: Random) -
     """The first generators whose gradients are independent at a random point of the whole space."""
     from flint import nmod_mat
 
-    prime = 2**31 - 1
+    prime = chance.sparing_prime()
     ring = generators[0].ring
     point = [random.randrange(prime) for _ in ring.names]
     chosen: list[Polynomial] = []
@@ -254,12 +256,9 @@ def _few_equations(piece: PurePiece, known: tuple[Polynomial, ...]) -> tuple[Pol
     for chosen in (known, tuple(shortest[: 2 * piece.codimension])):
         if not 0 < 2 * len(chosen) < len(generators):
             continue
-        try:
-            with current().part(_CHOOSING_SECONDS):
-                if noted_if_true(partial(_generate, chosen, generators)):
-                    return chosen
-        except Undecided:
-            current().check("the equations of a piece")
+        with attempt("the equations of a piece", _CHOOSING_SECONDS):
+            if noted_if_true(partial(_generate, chosen, generators)):
+                return chosen
     return generators
 
 

@@ -25,6 +25,9 @@ from singsym.varieties.real.curve_stars import find_stars
 from singsym.varieties.real.points import RealPoint
 from singsym.varieties.real.zerodim import real_points
 
+_DRAWS = 4
+"""So many centres and directions are drawn until a curve is proven: near special ones that takes too long."""
+
 
 @dataclass(frozen=True, eq=False)
 class CurveComponent:
@@ -133,10 +136,15 @@ def real_curve(
     ring: Ring = generators[0].ring
     budget = current(budget)
     with to(progress), certainties() as seen:
-        try:
-            found = _solved(ring, generators, budget, seed, drawing)
-        except Undecided as reason:
-            return _undecided(ring, str(reason))
+        for draw in range(_DRAWS):
+            try:
+                found = _solved(ring, generators, budget, seed + draw, drawing)
+            except Undecided as reason:
+                found = _undecided(ring, str(reason))
+            if drawing or not found.verdict.is_undecided or budget.remaining() == 0.0:
+                break
+    if found.verdict.is_undecided:
+        return found
     verdict = replace(found.verdict, certainty=weakest(found.verdict.certainty, *seen))
     return replace(found, verdict=verdict)
 

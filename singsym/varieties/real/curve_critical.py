@@ -6,14 +6,15 @@ Comput. 34 (2002) 543-560; here with the determinant split into factors.
 
 from __future__ import annotations
 
-import random
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
+from random import Random
 
 import numpy as np
 
+from singsym.elimination import chance
 from singsym.elimination.budget import Budget, Undecided
 from singsym.elimination.progress import report
 from singsym.minors.determinant import determinant
@@ -47,7 +48,7 @@ def sample_points(equations: Sequence[Polynomial], seed: int, budget: Budget) ->
     many complex critical points prove that it is radical and of dimension 1 or empty.
     """
     ring = equations[0].ring
-    rng = random.Random(seed)
+    rng = chance.random("critical points of a curve", seed)
     gradients = gradient_rows(equations)
     bounded = is_bounded(equations)
     for objective in _objectives(ring, gradients, bounded, rng):
@@ -60,7 +61,7 @@ def sample_points(equations: Sequence[Polynomial], seed: int, budget: Budget) ->
 
 
 def distance_samples(
-    equations: Sequence[Polynomial], near: Sequence[float], rng: random.Random, budget: Budget
+    equations: Sequence[Polynomial], near: Sequence[float], rng: Random, budget: Budget
 ) -> Samples:
     """Samples by the distance from a random point near another; raises `Undecided` if not isolated."""
     objective = distance_from(equations[0].ring, rng, near)
@@ -80,7 +81,7 @@ def with_ends(
     return Samples(objective, points, real_points((*equations, objective - level), budget), level)
 
 
-def distance_from(ring: Ring, rng: random.Random, near: Sequence[float] = ()) -> Polynomial:
+def distance_from(ring: Ring, rng: Random, near: Sequence[float] = ()) -> Polynomial:
     """The squared distance from a random rational point (near one, if given), constants left out."""
     constants = {c.name for c in ring.constants}
     total = ring.zero
@@ -96,7 +97,7 @@ def gradient_rows(equations: Sequence[Polynomial]) -> tuple[Row, ...]:
     return tuple(tuple(p.derivative(name) for name in p.ring.names) for p in equations)
 
 
-def critical_determinant(gradients: Sequence[Row], objective: Polynomial, rng: random.Random) -> Polynomial:
+def critical_determinant(gradients: Sequence[Row], objective: Polynomial, rng: Random) -> Polynomial:
     """det [J; grad objective], J replaced by n-1 random combinations of its rows where it has more.
 
     It vanishes wherever the Jacobian and the gradient have rank below n: a superset of the critical points.
@@ -110,7 +111,7 @@ def _critical_points(
     equations: Sequence[Polynomial],
     gradients: Sequence[Row],
     objective: Polynomial,
-    rng: random.Random,
+    rng: Random,
     budget: Budget,
 ) -> tuple[RealPoint, ...] | None:
     critical = critical_determinant(gradients, objective, rng)
@@ -126,9 +127,7 @@ def _critical_points(
     return tuple(found)
 
 
-def _objectives(
-    ring: Ring, gradients: Sequence[Row], bounded: bool, rng: random.Random
-) -> Iterator[Polynomial]:
+def _objectives(ring: Ring, gradients: Sequence[Row], bounded: bool, rng: Random) -> Iterator[Polynomial]:
     """Functions to try: on bounded curves coordinates, the one whose determinant splits best first."""
     if bounded:
         ranked = []
@@ -145,7 +144,7 @@ def _objectives(
         yield distance_from(ring, rng)
 
 
-def _combined(rows: Sequence[Row], count: int, rng: random.Random) -> tuple[Row, ...]:
+def _combined(rows: Sequence[Row], count: int, rng: Random) -> tuple[Row, ...]:
     if len(rows) <= count:
         return tuple(rows)
     zero = rows[0][0].ring.zero

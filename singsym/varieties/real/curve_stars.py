@@ -5,11 +5,11 @@ Source: the Jacobian criterion; see curve_singular.py and curve_branches.py for 
 
 from __future__ import annotations
 
-import random
 from collections.abc import Sequence
 
 import numpy as np
 
+from singsym.elimination import chance
 from singsym.elimination.budget import Budget, Undecided
 from singsym.polynomials import Polynomial
 from singsym.varieties.real.curve_arithmetic import Balls, System
@@ -47,7 +47,7 @@ def find_stars(
     if not difficult:
         return stars, samples
     reason = Undecided("no distance with isolated critical points was found")
-    rng = random.Random(seed + 1)
+    rng = chance.random("distances to singular points", seed)
     for _ in range(_SEEDS):
         try:
             samples = distance_samples(equations, difficult[0].floats, rng, budget)

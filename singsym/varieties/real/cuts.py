@@ -10,18 +10,21 @@ Source: Eisenbud, Commutative Algebra (1995), ch. 10; numerical points guide the
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
-from random import Random
 
 from flint import fmpq
 
-from singsym.elimination.budget import Undecided, current
+from singsym.elimination import chance
+from singsym.elimination.attempts import attempt
+from singsym.elimination.engines import EngineUnavailable
 from singsym.elimination.ideal import Ideal
-from singsym.elimination.residues import residue_basis
+from singsym.elimination.residues import residues
 from singsym.elimination.verdict import Certainty, note
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.real.dimension import has_rank
+from singsym.varieties.real.points import RealPoint
 from singsym.varieties.real.witness import RealSystem, Witness, frozen_values, samples
 from singsym.varieties.real.zerodim import real_points
 from singsym.varieties.splitting import factor_equations, irreducible_factors, used_ring
@@ -74,7 +77,7 @@ def dimension_by_cuts(system: RealSystem) -> Cut:
 
 
 def seems_at_most(ring: Ring, equations: Sequence[Polynomial], dimension: int) -> bool:
-    """Whether no complex zero is left on more random hyperplanes than a dimension, modulo a random prime.
+    """Whether no complex zero is left on more random hyperplanes than a dimension, modulo random primes.
 
     Each hyperplane meets every component of positive dimension unless its slope is one of few: what a prime
     is to coefficients, it is to hyperplanes.  False proves nothing; nor does True, which is hardly ever
@@ -89,16 +92,18 @@ def seems_at_most(ring: Ring, equations: Sequence[Polynomial], dimension: int) -
     cuts = dimension + 1 - (len(ring.names) - len(small.names))
     if cuts < 0:
         return False
-    random, fixed = Random(0), {c.name for c in ring.constants}
+    drawing, fixed = chance.random("hyperplanes", *equations), {c.name for c in ring.constants}
     free = [small.gen(name) for name in small.names if name not in fixed]
     planes = [
-        sum((g * random.randint(1, 2**30) for g in free), start=small.one * random.randint(1, 2**30))
+        sum((g * drawing.randint(1, 2**30) for g in free), start=small.one * drawing.randint(1, 2**30))
         for _ in range(cuts)
     ]
-    if residue_basis(Ideal(small, (*map(small.convert, equations), *planes)), None) != (small.one,):
-        return False
-    note("modular")
-    return True
+    cut = Ideal(small, (*map(small.convert, equations), *planes))
+    with suppress(EngineUnavailable):
+        if all(residue.is_unit for residue in residues(cut, limited=False)):
+            note("modular")
+            return True
+    return False
 
 
 def _conditions(system: RealSystem) -> tuple[tuple[Polynomial, ...], ...]:
@@ -136,12 +141,9 @@ def _cut_point(system: RealSystem, ideal: Ideal, dimension: int) -> Witness | No
     for sample in samples(system, system.equations, 0, TRIES):
         for values in frozen_values(system, system.equations, sample, dimension):
             done += 1
-            try:
-                with current().part(CUT_SECONDS):
-                    points = real_points(_cut(ideal, values, dimension))
-            except Undecided:
-                current().check("cutting by hyperplanes")
-                points = ()
+            points: tuple[RealPoint, ...] = ()
+            with attempt("cutting by hyperplanes", CUT_SECONDS):
+                points = real_points(_cut(ideal, values, dimension))
             for point in points:
                 if system.admits(point) and has_rank(ideal.generators, point, len(ring.names) - dimension):
                     return Witness(point, tuple(values))

@@ -11,7 +11,9 @@ from dataclasses import replace
 
 from flint import fmpz_poly
 
+from singsym.elimination.attempts import attempt
 from singsym.elimination.budget import Budget, Undecided, current
+from singsym.elimination.chance import BY_PRIMES
 from singsym.elimination.verdict import Verdict, certainties
 from singsym.polynomials import Polynomial
 from singsym.varieties.decomposition import Component, decompose
@@ -48,7 +50,9 @@ def is_empty_over_reals(
     except Undecided as reason:
         return Verdict.undecided(str(reason))
     if verdict.is_yes and "modular" in seen:
-        return replace(verdict, certainty="modular", engine="msolve")
+        return replace(
+            verdict, certainty="modular", engine="msolve", reason=f"{verdict.reason} ({BY_PRIMES})"
+        )
     return verdict
 
 
@@ -102,13 +106,9 @@ def _component_verdict(
         return Verdict.yes(reason=CONTRADICTED)
     if not all(component.vanishes(f) for f in forced):
         return _decided(replace(system, equations=(*component.generators, *forced)), budget, seed, tries)
-    try:
-        found = find_witness(
-            piece, seed=seed, tries=tries, dimension=component.dimension, budget=budget.part(_SEARCH_SECONDS)
-        )
-    except Undecided:
-        budget.check("the search for a real point")
-        found = None
+    found = None
+    with attempt("the search for a real point", _SEARCH_SECONDS, part_of=budget) as own:
+        found = find_witness(piece, seed=seed, tries=tries, dimension=component.dimension, budget=own)
     if found is not None:
         return Verdict.no(found.certainty, witness=found)
     return _by_samples(component, piece, equations, budget)
@@ -205,8 +205,6 @@ def _crossed(component: Component, system: RealSystem, budget: Budget) -> list[P
 def _is_crossed(component: Component, border: Polynomial, budget: Budget) -> bool:
     """Whether a border may have real points on a piece."""
     system = RealSystem(component.ideal.ring, (*component.generators, border))
-    try:
-        return not _decided(system, budget.part(_SEARCH_SECONDS), 0, 5).is_yes
-    except Undecided:
-        budget.check("real points where a condition changes")
-        return True
+    with attempt("real points where a condition changes", _SEARCH_SECONDS, part_of=budget) as own:
+        return not _decided(system, own, 0, 5).is_yes
+    return True

@@ -11,12 +11,12 @@ from math import lcm
 
 from flint import fmpq, fmpq_mat, nmod_mat
 
+from singsym.elimination.chance import random_primes
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.monomials import divides
 from singsym.polynomials import Polynomial
 from singsym.varieties.real.quotient import Algebra, Check, Monomial, degrevlex, quotient_algebra
 
-_PRIME = 2**62 - 57
 _MOST_COLUMNS = 1200
 Vector = dict[Monomial, fmpq]
 
@@ -64,6 +64,8 @@ class _Rows:
         self.multiples: list[dict[Monomial, Vector]] = [{} for _ in self.hard]
         self.degree = 0
         self.bound = 0
+        self.primes = random_primes("multiplication", bits=62)
+        self.prime = next(self.primes)
 
     # -- growing -----------------------------------------------------------------------------------
 
@@ -138,7 +140,9 @@ class _Rows:
         """
         columns = self.columns
         vectors = list(self.vectors())
-        matrix = _modular(vectors, columns)
+        while _divides_a_denominator(self.prime, vectors):
+            self.prime = next(self.primes)
+        matrix = _modular(vectors, columns, self.prime)
         echelon, rank = matrix.rref()
         pivots = [columns[next(j for j in range(len(columns)) if echelon[r, j])] for r in range(rank)]
         transposed, _ = matrix.transpose().rref()
@@ -167,7 +171,8 @@ class _Rows:
         """Whether the multiplication matrices commute modulo the prime."""
         if not basis:
             return True
-        left, right = _modular(chosen, pivots), _modular(chosen, basis)
+        prime = self.prime
+        left, right = _modular(chosen, pivots, prime), _modular(chosen, basis, prime)
         try:
             solved = left.solve(right)
         except ZeroDivisionError:
@@ -179,14 +184,17 @@ class _Rows:
         for i in range(len(self.ring.names)):
             entries = [0] * (count * count)
             for j, b in enumerate(basis):
-                for m, c in self.form((*b[:i], b[i] + 1, *b[i + 1 :])).items():
-                    c_p = int(c.p) * pow(int(c.q), -1, _PRIME)
+                form = self.form((*b[:i], b[i] + 1, *b[i + 1 :]))
+                if _divides_a_denominator(prime, [form]):
+                    return False
+                for m, c in form.items():
+                    c_p = int(c.p) * pow(int(c.q), -1, prime)
                     if m in place:
                         entries[place[m] * count + j] += c_p
                         continue
                     for k in range(count):
                         entries[k * count + j] -= c_p * int(solved[index[m], k])
-            matrices.append(nmod_mat(count, count, [e % _PRIME for e in entries], _PRIME))
+            matrices.append(nmod_mat(count, count, [e % prime for e in entries], prime))
         return all(a * b == b * a for k, a in enumerate(matrices) for b in matrices[:k])
 
     def algebra(
@@ -225,14 +233,18 @@ def _terms(polynomial: Polynomial) -> list[tuple[Monomial, fmpq]]:
     return [(tuple(map(int, m)), c) for m, c in polynomial.terms()]
 
 
-def _modular(vectors: Sequence[Vector], columns: Sequence[Monomial]) -> nmod_mat:
+def _divides_a_denominator(prime: int, vectors: Sequence[Vector]) -> bool:
+    return any(int(c.q) % prime == 0 for vector in vectors for c in vector.values())
+
+
+def _modular(vectors: Sequence[Vector], columns: Sequence[Monomial], prime: int) -> nmod_mat:
     place = {m: j for j, m in enumerate(columns)}
     entries = [0] * (len(vectors) * len(columns))
     for r, vector in enumerate(vectors):
         for m, c in vector.items():
             if m in place:
-                entries[r * len(columns) + place[m]] = int(c.p) * pow(int(c.q), -1, _PRIME) % _PRIME
-    return nmod_mat(len(vectors), len(columns), entries, _PRIME)
+                entries[r * len(columns) + place[m]] = int(c.p) * pow(int(c.q), -1, prime) % prime
+    return nmod_mat(len(vectors), len(columns), entries, prime)
 
 
 def _solved(chosen: Sequence[Vector], pivots: Sequence[Monomial], targets: Sequence[Monomial]) -> fmpq_mat:

@@ -5,20 +5,19 @@ Source: Rouillier, Appl. Algebra Eng. Commun. Comput. 9 (1999) 433-461 (rational
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import isqrt, lcm
-from random import Random
 
 from flint import fmpz, fmpz_mat, fmpz_poly, nmod_mat, nmod_poly
 from flint.utils.flint_exceptions import DomainError
 
+from singsym.elimination.chance import random, random_primes, sparing_prime
 from singsym.elimination.verdict import Certainty
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.real.quotient import Algebra
 
 Check = Callable[[], None]
-_PRIME = 2**62 - 57
 
 
 @dataclass(frozen=True)
@@ -70,8 +69,9 @@ class Parametrization:
         inverse = below.xgcd(minimal)[1] if minimal.degree() > 0 else nmod_poly([], prime)
         return minimal, [nmod_poly(n, prime) * inverse % minimal for n in self.numerators]
 
-    def vanishes_modulo(self, polynomial: Polynomial, prime: int = _PRIME) -> bool | None:
+    def vanishes_modulo(self, polynomial: Polynomial, prime: int | None = None) -> bool | None:
         """The same modulo a prime below 2^63; `False` proves that it does not vanish, `None` says nothing."""
+        prime = prime or sparing_prime()
         coordinates = self.modulo(prime)
         if coordinates is None:
             return None
@@ -105,8 +105,8 @@ def _value(terms: dict[tuple[int, ...], fmpz], at: Sequence[fmpz_poly], check: C
 
 def divides(divisor: fmpz_poly, dividend: fmpz_poly) -> bool:
     """Whether a primitive integer polynomial divides another one over Q (then over Z, by Gauss's lemma)."""
-    lead = divisor.leading_coefficient()
-    if lead % _PRIME != 0 and nmod_poly(dividend, _PRIME) % nmod_poly(divisor, _PRIME):
+    lead, prime = divisor.leading_coefficient(), sparing_prime()
+    if lead % prime != 0 and nmod_poly(dividend, prime) % nmod_poly(divisor, prime):
         return False
     try:
         dividend / divisor
@@ -131,10 +131,10 @@ def parametrize(
         return Parametrization(
             algebra.ring, fmpz_poly([1]), fmpz_poly([1]), (fmpz_poly([]),) * len(algebra.matrices)
         )
-    random = Random(seed)
-    for width in (2, 5, 30):
-        weights = [random.randint(-width, width) for _ in algebra.matrices]
-        if _image(_integral(algebra, weights), _PRIME) is not None:
+    drawing = random("linear forms", seed)
+    for width in (2, 5, 30, 1000):
+        weights = [drawing.randint(-width, width) for _ in algebra.matrices]
+        if _image(_integral(algebra, weights), sparing_prime()) is not None:
             return _reconstructed(algebra, weights, equations, check)
     return None
 
@@ -197,7 +197,7 @@ def _reconstructed(
     modulus, residues = 1, [0] * (count * (len(weights) + 1) + 1)
     used, trial = 0, 1
     previous: Parametrization | None = None
-    for prime in primes():
+    for prime in random_primes("reconstruction", bits=62):
         check()
         image = _image(data, prime)
         if image is None:
@@ -280,12 +280,3 @@ def reconstruct(residues: Sequence[int], modulus: int) -> tuple[list[int], int] 
         fractions.append((b if t > 0 else -b, denominator))
     common = lcm(*(d for _, d in fractions)) if fractions else 1
     return [n * (common // d) for n, d in fractions], common
-
-
-def primes() -> Iterator[int]:
-    """The primes below 2^62, from the largest down."""
-    candidate = 2**62 - 1
-    while True:
-        if fmpz(candidate).is_prime():
-            yield candidate
-        candidate -= 2

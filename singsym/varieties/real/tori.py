@@ -9,15 +9,14 @@ Source: Milnor, Morse Theory (1963), section 2 (critical points); Sard (1942): t
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import suppress
-from functools import lru_cache
 from math import cos, sin
-from random import Random
 
 from flint import fmpz_poly
 
-from singsym.elimination.budget import Undecided, current
+from singsym.elimination import chance
+from singsym.elimination.attempts import attempt
 from singsym.elimination.ideal import Ideal
+from singsym.elimination.memo import remember
 from singsym.elimination.verdict import Certainty, note, unnoted
 from singsym.polynomials import Polynomial
 from singsym.varieties.circles import Pair, circle
@@ -56,13 +55,13 @@ def extreme_zeros(f: Polynomial, circles: Sequence[Pair]) -> tuple[Polynomial, .
 
 def _has_two_signs(f: Polynomial, circles: Sequence[Pair]) -> bool:
     """Whether values of both signs are found."""
-    ring, random, signs = f.ring, Random(0), set()
+    ring, drawing, signs = f.ring, chance.random("signs", f), set()
     point = [0.0] * len(ring.names)
     for constant in ring.constants:
         point[ring.index(constant.name)] = float((constant.low + constant.high) / 2)
     for _ in range(_TRIES):
         for x, y in circles:
-            angle = random.uniform(0, 6.3)
+            angle = drawing.uniform(0, 6.3)
             point[ring.index(x)], point[ring.index(y)] = cos(angle), sin(angle)
         signs.add(f.evaluate(point) > 0)
         if len(signs) == 2:
@@ -70,8 +69,11 @@ def _has_two_signs(f: Polynomial, circles: Sequence[Pair]) -> bool:
     return False
 
 
-@lru_cache(maxsize=1000)
 def _extreme(f: Polynomial, circles: tuple[Pair, ...]) -> tuple[tuple[Polynomial, ...], Certainty]:
+    return remember("extreme values", (f, circles), lambda: _searched(f, circles))
+
+
+def _searched(f: Polynomial, circles: tuple[Pair, ...]) -> tuple[tuple[Polynomial, ...], Certainty]:
     """The polynomials of `extreme_zeros`, and how they are known."""
     ring = f.ring
     derivatives = [ring.gen(x) * f.derivative(y) - ring.gen(y) * f.derivative(x) for x, y in circles]
@@ -80,10 +82,9 @@ def _extreme(f: Polynomial, circles: tuple[Pair, ...]) -> tuple[tuple[Polynomial
     small = used_ring(ring, equations)
     ideal = Ideal(small, tuple(map(small.convert, equations)))
     values = None
-    with suppress(Undecided), current().part(SECONDS), unnoted():
+    with attempt("extreme values", SECONDS), unnoted():
         values = relation(ideal.groebner_basis(), (small.convert(f),))
     if values is None:
-        current().check("extreme values")
         return (), "proven"
     coefficients = [int(values.coefficient("t0", k).constant.p) for k in range(values.total_degree + 1)]
     first = next(k for k, c in enumerate(coefficients) if c)

@@ -8,14 +8,16 @@ Source: Hauenstein, Sottile, ACM Trans. Math. Softw. 38 (2012) 28 (certified sol
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import chain
 from math import prod
 from typing import TYPE_CHECKING
 
-from singsym.elimination.budget import Budget, BudgetExceeded, Undecided, current
-from singsym.elimination.engines import EngineFailure
+from singsym.elimination.attempts import attempt
+from singsym.elimination.budget import Budget, Undecided, current
+from singsym.elimination.chaos import strikes
 from singsym.elimination.verdict import Certainty
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.circles import unit_circles
@@ -166,7 +168,7 @@ def find_witness(
     """
     budget = current(budget)
     equations = system.closed_equations
-    if any(f.is_constant for f in equations):
+    if strikes() or any(f.is_constant for f in equations):
         return None
     for sample in chain(_landed(equations, system.ring, near), samples(system, equations, seed, tries)):
         budget.check("the search for a real point")
@@ -197,8 +199,8 @@ def samples(system: RealSystem, equations: Sequence[Polynomial], seed: int, trie
     excluded = [Compiled(group, ring) for group in system.exclusions]
     random = np.random.default_rng(seed)
     fixed = {ring.index(c.name): float((c.low + c.high) / 2) for c in ring.constants}
-    for attempt in range(tries):
-        start = random.normal(size=len(wide.names)) * (0.7, 1.5, 3.0, 8.0)[attempt % 4]
+    for turn in range(tries):
+        start = random.normal(size=len(wide.names)) * (0.7, 1.5, 3.0, 8.0)[turn % 4]
         for k, value in fixed.items():
             start[k] = value
         x = gauss_newton(compiled, start) if compiled.count else start
@@ -206,7 +208,7 @@ def samples(system: RealSystem, equations: Sequence[Polynomial], seed: int, trie
             continue
         x = x[: len(ring.names)]
         # points that are not accurate, near a double root, come after others
-        least = 1e-3 if 2 * attempt < tries else 1e-6
+        least = 1e-3 if 2 * turn < tries else 1e-6
         if all(float(np.max(np.abs(g(x)[0]))) > least for g in excluded):
             yield x
 
@@ -310,13 +312,12 @@ def _certified(
     left = [f for f in equations if f.substitute(dict(values))]
     if _bezout(left, values) > _FEW_SOLUTIONS and len(left) == len(ring.names) - len(values):
         return _certified_box(system, left, values, sample)
-    try:
-        points = frozen_points(ring, equations, values, budget.part(_SOLVE_SECONDS))
-    except NotZeroDimensional:
-        return None
-    except (BudgetExceeded, EngineFailure):
-        budget.check("the search for a real point")
-        return None
+    points: list[RealPoint] = []
+    with (
+        suppress(NotZeroDimensional),
+        attempt("the search for a real point", _SOLVE_SECONDS, part_of=budget) as own,
+    ):
+        points = frozen_points(ring, equations, values, own)
     order = sorted(points, key=lambda p: sum((a - b) ** 2 for a, b in zip(p.floats, sample, strict=True)))
     return next((p for p in order if system.admits(p)), None)
 

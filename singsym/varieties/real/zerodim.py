@@ -6,9 +6,9 @@ Source: Faugere et al. (1993) and Rouillier (1999), see quotient.py and parametr
 
 from __future__ import annotations
 
-import time
 from collections.abc import Sequence
 from dataclasses import replace
+from fractions import Fraction
 from itertools import islice
 from math import lcm
 from typing import Any
@@ -16,19 +16,22 @@ from typing import Any
 from flint import fmpq_mpoly, fmpz_mpoly_vec, fmpz_poly
 
 from singsym.elimination import engines
+from singsym.elimination.attempts import cut_short
 from singsym.elimination.basis import canonical, groebner_basis
 from singsym.elimination.budget import Budget, Undecided, current
+from singsym.elimination.chance import PRIMES, random_primes
 from singsym.elimination.engines.msolve import NotZeroDimensional as InfinitelyMany
 from singsym.elimination.engines.msolve import RawParametrization
 from singsym.elimination.engines.registry import msolve, over_rationals
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.memo import is_known, remember
 from singsym.elimination.verdict import note
+from singsym.elimination.work import worked
 from singsym.polynomials import AlgebraicConstant, Polynomial, Ring
 from singsym.varieties.real.box import BoxPoint
 from singsym.varieties.real.completeness import is_complete
 from singsym.varieties.real.macaulay import quotient_algebra_over
-from singsym.varieties.real.parametrization import Parametrization, divides, parametrize, primes
+from singsym.varieties.real.parametrization import Parametrization, divides, parametrize
 from singsym.varieties.real.points import RealPoint, real_points_of
 from singsym.varieties.real.quotient import (
     Algebra,
@@ -57,7 +60,8 @@ def real_points(
     """All real points of a zero-dimensional system, in increasing order of the coordinates.
 
     equations: an `Ideal`, or polynomials of one ring; the relations of the ring's constants are added, and
-    points with a conjugate of a constant are dropped.  Multiplicities are not told.
+    points with a conjugate of a constant are dropped.  Multiplicities are not told.  The space of no
+    variables is a point.
     Raises `NotZeroDimensional` where there are infinitely many complex points, `Undecided` out of budget.
 
     >>> from singsym.polynomials import Ring
@@ -66,6 +70,8 @@ def real_points(
     [{'x': '-1.414', 'y': '-1.414'}, {'x': '1.414', 'y': '1.414'}]
     """
     generators = equations.generators if isinstance(equations, Ideal) else tuple(equations)
+    if not generators and isinstance(equations, Ideal) and not equations.ring.names:
+        return (RealPoint(equations.ring, (0, 1), (1,), (), Fraction(0), Fraction(0)),)
     if not generators:
         raise NotZeroDimensional("no equations: the whole space")
     ring = generators[0].ring
@@ -86,7 +92,7 @@ def solve(equations: Sequence[Polynomial], budget: Budget | None = None) -> Para
     system = canonical(ring, (*map(ring.convert, equations), *ring.relations))
     if not system:
         raise NotZeroDimensional("only zero equations: the whole space")
-    found = remember("points", (ring, frozenset(system)), lambda: _solve(ring, system, budget))
+    found = remember("points", (ring, frozenset(system)), lambda: _solve(ring, system, budget), budget)
     note(found.certainty)
     return found
 
@@ -95,16 +101,16 @@ def _solve(ring: Ring, system: tuple[Polynomial, ...], budget: Budget) -> Parame
     def check() -> None:
         budget.check("the quotient algebra of a zero-dimensional system")
 
-    known = is_known("groebner", (ring, frozenset(system)))
+    known = is_known("groebner", (ring, frozenset(system)), budget)
     found = None
     if not known and "flint" in engines.allowed():
         whole = _capped_basis(ring, system)
         if whole is not None:
             return _from_basis(ring, whole, system, check)
     if not known and engines.has("msolve"):
-        start = time.monotonic()
+        start = worked()
         found = _by_msolve(ring, system, budget)
-        if found is not None and _is_known_complete(found, system, time.monotonic() - start, check):
+        if found is not None and _is_known_complete(found, system, worked() - start, check):
             found = replace(found, certainty="proven")
     elif not known and "flint" in engines.allowed():
         easy, hard = _easy_part(ring, system)
@@ -158,6 +164,7 @@ def _by_msolve(ring: Ring, system: Sequence[Polynomial], budget: Budget) -> Para
     except InfinitelyMany as error:
         raise NotZeroDimensional(str(error)) from None
     except engines.EngineFailure:
+        cut_short("real points by msolve")
         budget.check("real points by msolve")
         return None
     if raw is None:
@@ -168,17 +175,17 @@ def _by_msolve(ring: Ring, system: Sequence[Polynomial], budget: Budget) -> Para
 
 
 def _is_known_complete(
-    found: Parametrization, system: tuple[Polynomial, ...], seconds: float, check: Check
+    found: Parametrization, system: tuple[Polynomial, ...], work: float, check: Check
 ) -> bool:
     """Whether these are proven to be all points, where a basis over Q is found quickly.
 
-    seconds: how long the search for them took; `_holds` has checked other equations exactly.
+    work: what the search for them took; `_holds` has checked other equations exactly.
     """
     dear = [f for f in system if found.cost_of(f) >= _EXACT_COST]
     if sum(map(found.cost_of, dear)) > _PROOF_COST:
         return False
     task = engines.Task("groebner", found.ring, system)
-    basis = over_rationals(task, seconds, short=found.minimal.degree() == 0)
+    basis = over_rationals(task, work, short=found.minimal.degree() == 0)
     return (
         basis is not None and is_complete(found, basis, check) and all(found.vanishes(f, check) for f in dear)
     )
@@ -188,7 +195,8 @@ def _holds(found: Parametrization, equation: Polynomial, budget: Budget) -> bool
     """Whether an equation holds at all points: exactly, or modulo primes where that is too dear."""
     if found.cost_of(equation) < _EXACT_COST:
         return found.vanishes(equation, lambda: budget.check("the substitution of points"))
-    return all(found.vanishes_modulo(equation, p) is not False for p in islice(primes(), 3))
+    answers = (found.vanishes_modulo(equation, p) for p in random_primes("points", equation, bits=62))
+    return all(islice((answer for answer in answers if answer is not None), PRIMES))
 
 
 def _read(ring: Ring, raw: RawParametrization) -> tuple[Parametrization, bool]:

@@ -5,10 +5,15 @@ from __future__ import annotations
 from math import cos, sin
 
 import pytest
+from flint import fmpq
 from hypothesis import given
 from hypothesis import strategies as st
 
-from singsym.polynomials import Ring
+from singsym.elimination import engines
+from singsym.elimination.budget import Budget
+from singsym.elimination.chaos import chaos
+from singsym.elimination.verdict import certainties
+from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.real.cartesian import Cartesian
 from singsym.varieties.real.emptiness import is_empty_over_reals
 from singsym.varieties.real.witness import RealSystem
@@ -60,3 +65,48 @@ def test_an_exclusion_of_several_polynomials_is_kept_where_only_it_leaves_out_po
     trimmed = Cartesian.of(system).trimmed
     assert trimmed.exclusions == (group,)
     assert is_empty_over_reals(trimmed, tries=0).is_yes
+
+
+def katsura_and_one_more(more: int) -> RealSystem:
+    """Katsura's equations, hard to solve over Q, and more * u = 1.
+
+    They are sum x_l x_(m-l) = x_m for m = 0, ..., 6 (x_-k = x_k, and zero beyond x_7) and
+    x_0 + 2 (x_1 + ... + x_7) = 1: with x_0 = 1 and the others 0 they all hold,
+    so that (1, 0, ..., 0, 1 / more) is a solution.
+    """
+    ring = Ring((*(f"x{i}" for i in range(8)), "u"))
+
+    def at(i: int) -> Polynomial:
+        return ring.gens[abs(i)] if abs(i) < 8 else ring.zero
+
+    rows = [sum((at(k) * at(m - k) for k in range(-7, 8)), start=ring.zero) - at(m) for m in range(7)]
+    rows.append(at(0) + 2 * sum(map(at, range(1, 8)), start=ring.zero) - 1)
+    return RealSystem(ring, (*rows, more * ring.gen("u") - 1))
+
+
+@pytest.mark.engines
+@pytest.mark.skipif(not engines.has("msolve"), reason="FLINT takes no primes")
+def test_a_solution_that_a_prime_does_not_see() -> None:
+    """Modulo the prime 2^31 - 1 there is none."""
+    system = katsura_and_one_more(2**31 - 1)
+    point = [fmpq(1), *[fmpq(0)] * 7, fmpq(1, 2**31 - 1)]
+    assert not any(e.evaluate(point) for e in system.equations)
+    with Budget(60), certainties() as seen:
+        assert not Cartesian.of(system).is_empty(0.2)
+    assert "modular" not in seen
+
+
+@pytest.mark.engines
+@pytest.mark.skipif(not engines.has("msolve"), reason="FLINT takes no primes")
+def test_without_time_for_a_proof_several_primes_say_it_or_nobody() -> None:
+    """c^2 s is 2 and 3 at once nowhere."""
+    system = RealSystem(R, (c**2 * s - 2, c**2 * s - 3))
+    with certainties() as seen:
+        assert Cartesian.of(system).is_empty(0.0)
+    assert seen == ["modular"]
+    with certainties() as seen, chaos(1, 1.0):
+        assert not Cartesian.of(system).is_empty(0.0)
+    assert seen == []
+    with certainties() as seen:
+        assert Cartesian.of(system).is_empty()
+    assert seen == ["proven"]

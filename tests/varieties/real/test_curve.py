@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from singsym.elimination.budget import Budget
+from singsym.elimination.chance import use_seed
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import AlgebraicConstant, Ring
 from singsym.varieties.real.curve import real_curve
@@ -219,3 +220,12 @@ def test_budget_and_progress():
     events = []
     real_curve([x**2 + y**2 - 1], progress=events.append)
     assert {e.stage for e in events} >= {"curve"}
+
+
+@pytest.mark.parametrize("seed", [1, 3])
+def test_an_unlucky_draw_is_drawn_again(seed: int) -> None:
+    """At these seeds the first distances have a critical point too near the cusp at (1000, 1000)."""
+    with use_seed(seed):
+        curve = real_curve([(y - 1000) ** 2 - (x - 1000) ** 3])
+    assert curve.verdict.is_yes
+    assert (len(curve.components), len(curve.singular_points)) == (1, 1)

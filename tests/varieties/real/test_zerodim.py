@@ -12,8 +12,10 @@ from singsym.elimination.engines.registry import msolve, singular
 from singsym.elimination.memo import forget
 from singsym.polynomials import AlgebraicConstant, Polynomial, Ring
 from singsym.varieties.real import zerodim
+from singsym.varieties.real.emptiness import is_empty_over_reals
 from singsym.varieties.real.macaulay import quotient_algebra_over
 from singsym.varieties.real.parametrization import reconstruct
+from singsym.varieties.real.witness import RealSystem
 from singsym.varieties.real.zerodim import Ideal, NotZeroDimensional, real_points, solve
 
 R = Ring(("x", "y", "z"))
@@ -224,3 +226,12 @@ def test_reconstruction():
     found = reconstruct(residues, modulus)
     assert found is not None
     assert [Fraction(n, found[1]) for n in found[0]] == numbers
+
+
+def test_a_space_of_no_variables_is_a_point() -> None:
+    ring = Ring(())
+    (point,) = real_points(Ideal(ring, ()))
+    assert (point.floats, point.sign(ring.one)) == ((), 1)
+    assert real_points(Ideal(ring, (ring.one,))) == ()
+    assert is_empty_over_reals(RealSystem(ring, (), positive=(ring.one,))).is_no
+    assert is_empty_over_reals(RealSystem(ring, (), positive=(-ring.one,))).is_yes
