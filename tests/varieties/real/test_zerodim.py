@@ -224,3 +224,20 @@ def test_reconstruction():
     found = reconstruct(residues, modulus)
     assert found is not None
     assert [Fraction(n, found[1]) for n in found[0]] == numbers
+
+
+def test_a_ring_without_variables_has_one_point():
+    """The empty product of lines is a point: without equations, or with 0 = 0, it solves; with 1 = 0 it does not."""
+    nowhere = Ring(())
+    for equations in (Ideal(nowhere), Ideal(nowhere, [nowhere.zero]), [nowhere.zero]):
+        (point,) = real_points(equations)
+        assert point.box == ()
+        assert point.sign(nowhere.one) == 1
+        assert point.sign(nowhere.zero) == 0
+    assert real_points([nowhere.one]) == ()
+
+
+def test_no_equations_in_a_ring_with_variables_are_refused():
+    for equations in (Ideal(R), [R.zero]):
+        with pytest.raises(NotZeroDimensional, match="whole space"):
+            real_points(equations)
