@@ -227,7 +227,7 @@ def test_reconstruction():
 
 
 def test_a_ring_without_variables_has_one_point():
-    """The empty product of lines is a point: without equations, or with 0 = 0, it solves; with 1 = 0 it does not."""
+    """A point: without equations, or with 0 = 0, it solves; with 1 = 0 it does not."""
     nowhere = Ring(())
     for equations in (Ideal(nowhere), Ideal(nowhere, [nowhere.zero]), [nowhere.zero]):
         (point,) = real_points(equations)
