@@ -9,25 +9,26 @@ from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 from math import gcd, lcm
+from statistics import median_low
 
 import sympy
 
 from singsym.mechanism.model import Exclusion, Joint, Limit, Link, Mechanism, Vector
 
-LARGEST = 10
-"""In its own unit the lengths of a mechanism are below this."""
+USUAL = 10
+"""In its own unit half of a mechanism's lengths at least are below this."""
 
 
 def own_unit(mechanism: Mechanism) -> Fraction:
     """A length that grows with the mechanism: the greatest common divisor of its lengths times a power of 10.
 
     Of a length such as 3*sqrt(2)/2 or 3*a/2 the rational coefficients count, 3/2: parameters without a value
-    are numbers.  The power is the least for which all coefficients are below `LARGEST` units.  A mechanism
-    without lengths has the unit 1.
+    are numbers.  The power is the least for which half of the coefficients, zeros aside, are below `USUAL`
+    units: lengths are then small whole numbers, or near 1.  A mechanism without lengths has the unit 1.
 
     >>> from singsym.mechanism import load
     >>> own_unit(load("fourbar")), own_unit(scaled(load("fourbar"), Fraction(700, 3)))
-    (Fraction(1, 1), Fraction(700, 3))
+    (Fraction(1, 2), Fraction(350, 3))
     >>> own_unit(load("spherical-fourbar"))
     Fraction(1, 1)
     """
@@ -35,7 +36,7 @@ def own_unit(mechanism: Mechanism) -> Fraction:
     if not sizes:
         return Fraction(1)
     unit = Fraction(gcd(*(s.numerator for s in sizes)), lcm(*(s.denominator for s in sizes)))
-    while max(sizes) >= LARGEST * unit:
+    while median_low(sizes) >= USUAL * unit:
         unit *= 10
     return unit
 
@@ -47,7 +48,7 @@ def scaled(mechanism: Mechanism, factor: Fraction) -> Mechanism:
 
     >>> from singsym.mechanism import load
     >>> scaled(load("fourbar"), Fraction(1000)).link("AB").points["B"]
-    (2000, 0)
+    (1000, 0)
     """
     factor = sympy.Rational(factor.numerator, factor.denominator)
     mechanism = mechanism.resolved

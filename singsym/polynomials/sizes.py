@@ -1,13 +1,13 @@
 """How large the variables of polynomial equations are, roughly, from the coefficients alone.
 
-Source: Morgan, Solving Polynomial Systems Using Continuation (1987), chapter 5: scaling by least squares on the
-logarithms of the coefficients.
+Source: Morgan, Solving Polynomial Systems Using Continuation (1987), chapter 5: scaling by least squares on
+the logarithms of the coefficients.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from math import log
+from collections.abc import Iterable, Sequence
+from math import log, prod
 
 from singsym.polynomials.polynomial import Polynomial
 from singsym.polynomials.ring import Ring
@@ -16,8 +16,8 @@ from singsym.polynomials.ring import Ring
 def variable_sizes(ring: Ring, polynomials: Iterable[Polynomial]) -> tuple[float, ...]:
     """Sizes of the ring's variables for which the terms of each polynomial are as equal as they can be.
 
-    Those of algebraic constants are their values, about; where the polynomials leave a choice, sizes are near 1.
-    A unit of length that is k times smaller makes the sizes of lengths k times larger, as it should.
+    Those of algebraic constants are their values, about; where the polynomials leave a choice, sizes are near
+    1.  In a unit of length that is k times smaller the sizes of lengths are k times larger.
 
     >>> R = Ring(("x", "y", "c"))
     >>> x, y, c = R.gens
@@ -26,7 +26,9 @@ def variable_sizes(ring: Ring, polynomials: Iterable[Polynomial]) -> tuple[float
     """
     import numpy as np
 
-    fixed = {ring.index(c.name): log(max(abs(c.low + c.high) / 2, c.high / 2, -c.low / 2)) for c in ring.constants}
+    fixed = {
+        ring.index(c.name): log(max(abs(c.low + c.high) / 2, c.high / 2, -c.low / 2)) for c in ring.constants
+    }
     rows, sides = [], []
     for polynomial in polynomials:
         terms = polynomial.terms()
@@ -44,3 +46,19 @@ def variable_sizes(ring: Ring, polynomials: Iterable[Polynomial]) -> tuple[float
         part = matrix[:, free]
         found[free] = np.linalg.lstsq(part.T @ part, part.T @ side, rcond=1e-9)[0]
     return tuple(float(size) for size in np.exp(found))
+
+
+def largest_term(polynomial: Polynomial, sizes: Sequence[float]) -> float:
+    """The absolute value of the largest term where the variables have these sizes; 0 without terms.
+
+    >>> x, y = Ring(("x", "y")).gens
+    >>> largest_term(3 * x**2 - 100 * y, (10.0, 1.0))
+    300.0
+    """
+    return max(
+        (
+            abs(int(c.p)) / int(c.q) * prod(s ** int(e) for s, e in zip(sizes, m, strict=True) if e)
+            for m, c in polynomial.terms()
+        ),
+        default=0.0,
+    )
