@@ -31,7 +31,6 @@ from singsym.elimination.verdict import Certainty, Verdict, weakest
 from singsym.kinematics.reduction import reduce
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import Mechanism
-from singsym.polynomials import Polynomial
 from singsym.varieties.real.witness import RealSystem
 
 FIRST_SECONDS, SECOND_SECONDS = 1.0, 5.0

@@ -90,18 +90,21 @@ def _scaled_joint(joint: Joint, factor: sympy.Rational) -> Joint:
 
 
 def _scaled_limit(limit: Limit, factor: sympy.Rational) -> Limit:
-    """The bounds in the new unit; where the expression has no power of a length for a unit, itself."""
-    degree = _degree(limit.expression)
-    if degree is None:
-        return replace(limit, expression=_in_old_unit(limit.expression, factor))
-    low, high = (None if bound is None else bound * factor**degree for bound in (limit.low, limit.high))
-    return replace(limit, low=low, high=high)
+    power = factor ** _degree(limit.expression)
+    low, high = (None if bound is None else bound * power for bound in (limit.low, limit.high))
+    return Limit(_scaled_expression(limit.expression, factor), low, high)
 
 
 def _scaled_exclusion(exclusion: Exclusion, factor: sympy.Rational) -> Exclusion:
-    if exclusion.expression is None or _degree(exclusion.expression) is not None:
+    if exclusion.expression is None:
         return exclusion
-    return replace(exclusion, expression=_in_old_unit(exclusion.expression, factor))
+    return replace(exclusion, expression=_scaled_expression(exclusion.expression, factor))
+
+
+def _scaled_expression(expression: sympy.Expr, factor: sympy.Rational) -> sympy.Expr:
+    """f^d E(x/f) for the lengths x in an expression of degree d in them: E itself where it is homogeneous."""
+    old = expression.xreplace({s: s / factor for s in _length_symbols(expression)})
+    return factor ** _degree(expression) * old
 
 
 def _length_symbols(expression: sympy.Expr) -> list[sympy.Symbol]:
@@ -110,14 +113,7 @@ def _length_symbols(expression: sympy.Expr) -> list[sympy.Symbol]:
     return [s for s in symbols if s.name.startswith("length(") or ("." in s.name and "(" not in s.name)]
 
 
-def _degree(expression: sympy.Expr) -> int | None:
-    """The degree in lengths of an expression that is homogeneous in them, else None."""
+def _degree(expression: sympy.Expr) -> int:
+    """The degree of an expression in lengths."""
     symbols = _length_symbols(expression)
-    if not symbols:
-        return 0
-    degree = sympy.Poly(expression, *symbols).homogeneous_order()
-    return None if degree is None or degree < 0 else int(degree)
-
-
-def _in_old_unit(expression: sympy.Expr, factor: sympy.Rational) -> sympy.Expr:
-    return expression.xreplace({s: s / factor for s in _length_symbols(expression)})
+    return int(sympy.Poly(expression, *symbols).total_degree()) if symbols else 0
