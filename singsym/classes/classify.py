@@ -35,6 +35,7 @@ from singsym.varieties.real.witness import RealSystem
 
 FIRST_SECONDS, SECOND_SECONDS = 1.0, 5.0
 """So long each stratum is looked at before it is known whether more time is worth while."""
+NOT_COUNTED = "components are not counted within inequalities"
 BOUND_SECONDS = 30.0
 """So long one is looked at last of which only a larger dimension would matter."""
 
@@ -160,7 +161,7 @@ class _Work:
         )
         explored = search(root, self.runner, self._singular_loci(), Budget(self.limits.total))
         pieces = self._with_components(self._pieces(explored.found))
-        loci = self._loci()
+        loci = self._loci(pieces)
         classes = self._classes(explored, pieces)
         return Classification(
             self.mechanism,
@@ -233,15 +234,15 @@ class _Work:
 
     # -- loci ----------------------------------------------------------------------------------------
 
-    def _loci(self) -> tuple[Locus, ...]:
+    def _loci(self, pieces: Sequence[Piece]) -> tuple[Locus, ...]:
         """The real zeros of each factor of (4) and (5) on the configuration space, whatever their class."""
         factors = [(label, factor) for label in ("4", "5") for factor in self.conditions[label].factors]
         tasks = [self._task(self._whole(factor), None) for _, factor in factors]
         whole = self.runner.map(realise, tasks, "loci")
-        curves = [i for i, found in enumerate(whole) if found.pieces[0].dimension == 1]
+        curves = [i for i, found in enumerate(whole) if found.pieces[0].dimension == 1 and self._counting]
         counted = dict(zip(curves, self._count([whole[i].pieces[0] for i in curves]), strict=True))
         return tuple(
-            _locus(label, factor, found.pieces[0], counted.get(i))
+            _locus(label, factor, _at_least(found.pieces[0], pieces), counted.get(i), self._counting)
             for i, ((label, factor), found) in enumerate(zip(factors, whole, strict=True))
         )
 
@@ -249,11 +250,14 @@ class _Work:
         equations = (*self.equation.space.equations, factor.polynomial)
         return Found((factor.polynomial,), Stratum(equations, Defects(0, 0, 0, 0)))
 
+    @property
+    def _counting(self) -> bool:
+        """Whether connected components of curves are counted."""
+        return not (self.equation.space.nonnegative or self.equation.space.positive)
+
     def _count(self, pieces: Sequence[Piece]) -> list[Counted]:
         """The connected components of curves, closed up."""
         space, limits = self.equation.space, self.limits
-        if space.nonnegative or space.positive:
-            return [Counted(None, "components are not counted within inequalities")] * len(pieces)
         tasks = [
             CurveTask(p.basis, (*space.exclusions, *p.exclusions), limits.seconds, limits.memory_mb)
             for p in pieces
@@ -264,6 +268,8 @@ class _Work:
 
     def _with_components(self, realised: Sequence[Realised]) -> list[Piece]:
         """All pieces; the curves of classes that are curves with their numbers of components."""
+        if not self._counting:
+            return [piece for part in realised for piece in part.pieces]
         known = _dimensions(piece for part in realised for piece in part.pieces)
         curves = [
             i
@@ -293,7 +299,7 @@ class _Work:
                 )
                 continue
             own = [p for p in pieces if p.defects.types == candidate.types]
-            results.append(_class(candidate, occurring, explored, own))
+            results.append(_class(candidate, occurring, explored, own, self._counting))
         return tuple(results)
 
 
@@ -302,6 +308,7 @@ def _class(
     occurring: set[SingularityType],
     explored: Exploration,
     own: Sequence[Piece],
+    counting: bool,
 ) -> ClassResult:
     """What its pieces say of a class, and the doubts about those and about parts that were not searched."""
     present = sorted((p for p in own if p.verdict.is_yes), key=lambda p: (-p.extent.at_least, str(p.path)))
@@ -314,7 +321,8 @@ def _class(
         certainty = present[0].verdict.certainty
         verdict = Verdict.yes(certainty, reason=_reservations(extent, known))
         steps: tuple[str, ...] = (found_in(candidate.types),)
-        points, components, uncounted = _counts(extent, own)
+        if counting or extent.dimension == 0:
+            points, components, uncounted = _counts(extent, own)
     elif unexplored or any(p.verdict.is_undecided for p in own):
         reasons = [*(p.verdict.reason for p in own if p.verdict.is_undecided), *unexplored]
         verdict = Verdict.undecided("; ".join(dict.fromkeys(reasons)))
@@ -334,6 +342,7 @@ def _class(
         steps,
         conditions_latex(present),
         uncounted,
+        "" if counting or extent.dimension != 1 else NOT_COUNTED,
     )
 
 
@@ -354,7 +363,17 @@ def _counts(extent: Extent, pieces: Sequence[Piece]) -> tuple[int | None, int | 
     return (total if extent.dimension == 0 else None), total, ""
 
 
-def _locus(label: str, factor: Factor, piece: Piece, counted: Counted | None) -> Locus:
+def _at_least(whole: Piece, pieces: Sequence[Piece]) -> Piece:
+    """A locus of which strata inside it may show more than it shows by itself."""
+    inside = [p for p in pieces if whole.path[0] in p.path and p.verdict.is_yes]
+    best = max(inside, key=lambda p: p.extent.at_least, default=None)
+    if best is None or best.extent.at_least <= whole.extent.at_least:
+        return whole
+    extent = replace(whole.extent, at_least=best.extent.at_least)
+    return replace(whole, verdict=best.verdict, extent=extent, witnesses=best.witnesses)
+
+
+def _locus(label: str, factor: Factor, piece: Piece, counted: Counted | None, counting: bool) -> Locus:
     components, uncounted = piece.components, piece.extent.open
     if counted is not None:
         components, uncounted = counted.components, counted.reason
@@ -368,6 +387,7 @@ def _locus(label: str, factor: Factor, piece: Piece, counted: Counted | None) ->
         components,
         piece.points,
         "" if components is not None else uncounted,
+        "" if counting or piece.dimension != 1 else NOT_COUNTED,
     )
 
 

@@ -18,6 +18,7 @@ from singsym.classes.patches import patches
 from singsym.elimination.budget import Undecided, current
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.verdict import Certainty, unnoted, weakest
+from singsym.kinematics.numerical_rank import numerical_rank
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.real.critical import dropped
 from singsym.varieties.real.cuts import seems_at_most
@@ -113,7 +114,7 @@ def larger_parts(system: RealSystem, dimension: int) -> Iterator[tuple[int, Witn
     """
     import numpy as np
 
-    from singsym.varieties.real.search import Compiled, numerical_rank
+    from singsym.varieties.real.search import Compiled
 
     ring, equations = system.ring, system.closed_equations
     compiled = Compiled(equations, ring)
@@ -122,7 +123,7 @@ def larger_parts(system: RealSystem, dimension: int) -> Iterator[tuple[int, Witn
     for point in numerical_points(system, POINTS):
         current().check("parts of a larger dimension")
         _, slopes = compiled(np.array(point))
-        rank = numerical_rank(slopes)
+        rank = numerical_rank(slopes, 1e-7).rank
         if len(ring.names) - rank <= dimension:
             continue
         _, _, right = np.linalg.svd(slopes, full_matrices=True)

@@ -5,11 +5,13 @@ Source: Zlatanov, Fenton, Benhabib (1998), section 2.2, the definitions of the s
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from singsym.classes.types import SingularityType
+from singsym.kinematics.numerical_rank import NumericalRank
+from singsym.kinematics.scaling import Scaled
 from singsym.kinematics.velocity import VelocityEquation
 
 if TYPE_CHECKING:
@@ -18,7 +20,8 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-_NONZERO = 1e-6
+_NEGLIGIBLE = 1e-9
+"""Rates below this fraction of the largest, lengths over the characteristic length, are left out."""
 
 
 @dataclass(frozen=True)
@@ -35,28 +38,21 @@ class Motion:
 
 
 def null_motions(
-    equation: VelocityEquation,
-    matrix: Floats,
-    units: Floats,
-    ranks: Mapping[str, int],
-    types: SingularityType,
+    equation: VelocityEquation, kernels: Mapping[str, Floats], units: Floats, types: SingularityType
 ) -> tuple[Motion, ...]:
     """RI, RO, RPM: bases of the motions that show them; II, IO: the restrictions; IIM: all free motions.
 
-    matrix: L in floats with scaled columns, units: what turns its rates into those of L; ranks: of the four.
+    kernels: of L, L_I, L_O and L_p, orthonormal rows of scaled rates, as long as L is wide; units: what turns
+    scaled rates into rates.
     """
     import numpy as np
 
     roles = [c.role for c in equation.columns]
-    kernel = _Kernel(matrix, roles)
-    everything = kernel.of((), ranks["L"])
-    without_input = kernel.of(("input",), ranks["L_I"])
-    without_output = kernel.of(("output",), ranks["L_O"])
-    passive = kernel.of(("input", "output"), ranks["L_p"])
+    everything, passive = kernels["L"], kernels["L_p"]
     found: list[Motion] = []
     shown = {
-        SingularityType.RI: _modulo(without_output, passive),
-        SingularityType.RO: _modulo(without_input, passive),
+        SingularityType.RI: _modulo(kernels["L_O"], passive),
+        SingularityType.RO: _modulo(kernels["L_I"], passive),
         SingularityType.RPM: passive,
         SingularityType.IIM: everything,
     }
@@ -64,33 +60,32 @@ def null_motions(
         if kind not in types:
             continue
         if kind in shown:
-            rows = _readable(shown[kind] * units)
-            found += [Motion(kind, _named(equation, row)) for row in rows]
+            found += [Motion(kind, rates) for rates in _named(equation, shown[kind], units)]
         else:
-            role = "input" if kind is SingularityType.II else "output"
+            role, dropped = ("input", "L_I") if kind is SingularityType.II else ("output", "L_O")
             places = [j for j, r in enumerate(roles) if r == role]
-            defect = (ranks["L"] - ranks["L_I"]) if role == "input" else (ranks["L"] - ranks["L_O"])
+            # as many restrictions as rank L is larger than that of the matrix without these columns
+            defect = len(places) - len(everything) + len(kernels[dropped])
             rows = np.zeros((defect, len(roles)))
-            rows[:, places] = _complement((everything * units)[:, places], defect)
-            found += [Motion(kind, _named(equation, row), True) for row in _readable(rows)]
+            rows[:, places] = _complement(everything[:, places], defect)
+            found += [Motion(kind, rates, True) for rates in _named(equation, rows, 1 / units)]
     return tuple(found)
 
 
-class _Kernel:
-    """Null spaces of L without some columns, as rows of full length with zeros there."""
+def numerical_kernels(
+    scaled: Scaled, seen: Mapping[str, NumericalRank], ranks: Mapping[str, int]
+) -> dict[str, Floats]:
+    """The kernels that `null_motions` expects, by the singular vectors of the smallest singular values.
 
-    def __init__(self, matrix: Floats, roles: Sequence[str]) -> None:
-        self.matrix, self.roles = matrix, roles
+    seen: the decompositions of L, L_I, L_O, L_p; ranks: theirs, as they are known.
+    """
+    import numpy as np
 
-    def of(self, without: tuple[str, ...], rank: int) -> Floats:
-        import numpy as np
-
-        kept = [j for j, role in enumerate(self.roles) if role not in without]
-        found = np.zeros((len(kept) - rank, len(self.roles)))
-        if kept:
-            _, _, right = np.linalg.svd(self.matrix[:, kept], full_matrices=True)
-            found[:, kept] = right[rank:]
-        return found
+    found = {}
+    for name, here in seen.items():
+        found[name] = np.zeros((here.right.shape[1] - ranks[name], len(scaled.units)))
+        found[name][:, scaled.columns(name)] = here.right[ranks[name] :]
+    return found
 
 
 def _modulo(space: Floats, part: Floats) -> Floats:
@@ -111,7 +106,7 @@ def _complement(vectors: Floats, count: int) -> Floats:
 
 
 def _readable(rows: Floats) -> Floats:
-    """The same span by an echelon form with largest pivots, each row's largest entry 1."""
+    """The same span by an echelon form with largest pivots; what is negligible beside them is zero."""
     import numpy as np
 
     rows = rows.copy()
@@ -119,17 +114,18 @@ def _readable(rows: Floats) -> Floats:
         place = np.unravel_index(np.abs(rows[i:]).argmax(), rows[i:].shape)
         pivot_row, column = int(place[0]) + i, int(place[1])
         rows[[i, pivot_row]] = rows[[pivot_row, i]]
-        if abs(rows[i, column]) < _NONZERO:
-            continue
         rows[i] /= rows[i, column]
         for k in range(len(rows)):
             if k != i:
                 rows[k] -= rows[k, column] * rows[i]
-    largest = np.take_along_axis(rows, np.abs(rows).argmax(axis=1)[:, None], axis=1) if len(rows) else rows
-    return np.asarray(rows / np.where(np.abs(largest) > _NONZERO, largest, 1.0))
+    largest = np.abs(rows).max(axis=1, keepdims=True, initial=0.0)
+    return np.where(np.abs(rows) > _NEGLIGIBLE * largest, rows, 0.0)
 
 
-def _named(equation: VelocityEquation, row: Floats) -> dict[str, float]:
-    return {
-        c.label: float(rate) for c, rate in zip(equation.columns, row, strict=True) if abs(rate) > _NONZERO
-    }
+def _named(equation: VelocityEquation, rows: Floats, units: Floats) -> list[dict[str, float]]:
+    """By column label, the largest 1."""
+    found = []
+    for row in _readable(rows) * units:
+        largest = row[abs(row).argmax()]
+        found.append({c.label: float(x / largest) for c, x in zip(equation.columns, row, strict=True) if x})
+    return found

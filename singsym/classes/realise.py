@@ -22,7 +22,7 @@ from singsym.classes.strata import Stratum
 from singsym.classes.symmetry import image
 from singsym.elimination.budget import Budget, Undecided, current
 from singsym.elimination.ideal import Ideal
-from singsym.elimination.verdict import Verdict, certainties, weakest
+from singsym.elimination.verdict import Certainty, Verdict, certainties, weakest
 from singsym.kinematics.placement import Coordinates, JointValue
 from singsym.polynomials import Polynomial
 from singsym.varieties.real.box import BoxPoint
@@ -149,7 +149,9 @@ def _realised(piece: Piece, system: RealSystem, stratum: Stratum) -> tuple[Piece
         return _given(piece, system, stratum.elsewhere)
     if component.dimension == 0:
         return _finite(piece, real_points(stratum.equations), system, stratum.elsewhere)
-    return _counted(*_exactly(piece, *component_dimension(component, system)), system, stratum.elsewhere)
+    with certainties() as seen:
+        found = component_dimension(component, system)
+    return _counted(*_exactly(piece, *found, weakest(*seen)), system, stratum.elsewhere)
 
 
 def _images(piece: Piece, points: Points, task: RealTask) -> Iterator[Piece]:
@@ -215,7 +217,7 @@ def _bounded(piece: Piece, system: RealSystem, dimension: int, witness: Witness)
             if (bound := _bound(system, larger)) is not None:
                 extent = Extent(larger, bound.dimension, bound.certainty)
                 return replace(found, extent=extent), points
-        return _exactly(piece, *real_dimension(system))
+        return _by_components(piece, system)
     except Undecided as reason:
         return replace(found, extent=replace(found.extent, open=str(reason))), points
 
@@ -233,7 +235,13 @@ def _dependent(piece: Piece, system: RealSystem, patch: Patch) -> tuple[Piece, P
         witness = find_witness(system, tries=SEARCHES, dimension=dimension, near=[near])
         if witness is not None:
             return _known(piece, Extent(dimension, dimension, cut.certainty), witness)
-    return _exactly(piece, *real_dimension(system))
+    return _by_components(piece, system)
+
+
+def _by_components(piece: Piece, system: RealSystem) -> tuple[Piece, Points]:
+    with certainties() as seen:
+        found = real_dimension(system)
+    return _exactly(piece, *found, weakest(*seen))
 
 
 def _unsolved(chart: Cartesian, patch: Patch, witness: Witness) -> tuple[float, ...]:
@@ -282,12 +290,14 @@ def _finite(
     return found, points
 
 
-def _exactly(piece: Piece, dimension: int, witness: Witness | None) -> tuple[Piece, Points]:
-    """A set whose real dimension is known, with a point of it where there is one."""
+def _exactly(
+    piece: Piece, dimension: int, witness: Witness | None, known: Certainty = "proven"
+) -> tuple[Piece, Points]:
+    """A set whose real dimension is known, with a point of it where there is one; known: how it is."""
     if witness is None:
-        verdict = Verdict.no(reason="the equations have no real and feasible solution")
+        verdict = Verdict.no(known, reason="the equations have no real and feasible solution")
         return replace(piece, verdict=verdict, extent=EMPTY), ()
-    return _known(piece, Extent(dimension, dimension), witness)
+    return _known(piece, Extent(dimension, dimension, known), witness)
 
 
 def _known(piece: Piece, extent: Extent, witness: Witness) -> tuple[Piece, Points]:

@@ -91,7 +91,7 @@ class Locus:
 
     words: what the factor says of the mechanism's points and axes, or ""; extent: its real dimension.
     points: real points of a finite locus; components: connected components of a curve, where known; open: why
-    one of these is not known.
+    one of these is not known although it was looked for; remark: why it was not.
     """
 
     condition: str
@@ -103,6 +103,7 @@ class Locus:
     components: int | None = None
     points: int | None = None
     open: str = ""
+    remark: str = ""
 
     @property
     def dimension(self) -> int | None:
@@ -118,7 +119,8 @@ class ClassResult:
     """One of the 21 classes for a mechanism.
 
     extent: its real dimension.  components: connected components of a curve, each locus counted by itself and
-    closed up, before points of other classes are taken out.  open: why a count is not known.
+    closed up, before points of other classes are taken out.  open: why a count is not known although it was
+    looked for; remark: why it was not.
     steps: the steps of section 3.2 in which it was found or excluded.
     """
 
@@ -131,6 +133,7 @@ class ClassResult:
     steps: tuple[str, ...]
     conditions: str
     open: str = ""
+    remark: str = ""
 
     @property
     def dimension(self) -> int | None:
@@ -232,6 +235,7 @@ class Classification:
                     **_extent(piece.extent),
                     "smooth": piece.smooth,
                     "delta": piece.defects.delta,
+                    "types": piece.defects.types.names,
                     "certainty": piece.verdict.certainty,
                     "remark": piece.remark,
                 }
@@ -247,7 +251,7 @@ class Classification:
                     "components": locus.components,
                     "points": locus.points,
                     "verdict": str(locus.verdict.answer),
-                    "reason": locus.verdict.reason or locus.open,
+                    "reason": locus.verdict.reason or locus.open or locus.remark,
                 }
                 for locus in self.loci
             ],
@@ -264,7 +268,7 @@ class Classification:
                     "witnesses": [w.as_json() for w in result.witnesses],
                     "conditions": result.conditions,
                     "steps": list(result.steps),
-                    "reason": result.verdict.reason or result.open,
+                    "reason": result.verdict.reason or result.open or result.remark,
                 }
                 for result in self.classes
             ],

@@ -205,9 +205,7 @@ def _configuration(command: argparse.ArgumentParser) -> None:
         metavar="FILE",
         help="TOML with [joints] A = '30 deg', [points] B = [0.3, 0.95], [variables] Bx = 0.3",
     )
-    command.add_argument(
-        "--tolerance", type=_positive, help="singular values below this fraction of the largest count as zero"
-    )
+    command.add_argument("--tolerance", type=_positive, help="singular values below this count as zero")
 
 
 def _mobility(command: argparse.ArgumentParser) -> None:

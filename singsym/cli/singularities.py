@@ -6,7 +6,6 @@ Source: sections 2.3, 3.1 and 3.2 of Zlatanov, Fenton, Benhabib (1998).
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from singsym.cli.mechanisms import complaint, placed, read
@@ -155,8 +154,7 @@ def run_at(chosen: argparse.Namespace) -> int:
     mechanism = read(chosen)
     placed(mechanism, chosen.formulation)
     try:
-        text = Path(chosen.config).read_text(encoding="utf-8-sig")
-        given = Given.from_toml(text, chosen.config)
+        given = Given.from_file(chosen.config)
         found = at(
             mechanism, given, formulation=chosen.formulation, tolerance=chosen.tolerance, file=chosen.config
         )
@@ -164,8 +162,6 @@ def run_at(chosen: argparse.Namespace) -> int:
         raise UserError(complaint(error.problems)) from None
     except OSError as error:
         raise UserError(f"{chosen.config} cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise UserError(f"{chosen.config} is no text in UTF-8") from None
     if chosen.format == "json":
         from singsym.output.data import analysis_data
 
@@ -174,4 +170,4 @@ def run_at(chosen: argparse.Namespace) -> int:
         from singsym.output.text import analysis_page
 
         emit_page(analysis_page(mechanism.name, found))
-    return 0 if found.exact or found.defects.is_feasible(found.equation.n) else UNDECIDED
+    return UNDECIDED if found.undecided else 0

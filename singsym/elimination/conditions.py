@@ -35,6 +35,9 @@ LARGEST_DETERMINANT = 7
 MOST_TERMS = 50000
 """Determinants with more terms on the way are left as determinants."""
 
+SHORT = 6
+"""A factor before a determinant's polynomial is cut, in LaTeX, after so many terms."""
+
 _MATRIX = {"4": "L_I", "5": "L_O", "vii": "L_I", "viii": "L_O", "iii": "L_p", "vi": "L"}
 _COMPARED = {"i": ("L_O", "L_p"), "ii": ("L_I", "L_p"), "iv": ("L_I", "L"), "v": ("L_O", "L")}
 _TYPES = {
@@ -71,16 +74,59 @@ class Factor:
     @property
     def words(self) -> str:
         """What its vanishing says of the named points; empty where it was not recognised."""
-        return self.name.words if self.name else ""
+        return self.name.quantity.words if self.name else ""
 
-    def latex(self) -> str:
-        """The polynomial, cut where it is long; a named determinant stands before it."""
-        shown = polynomial_latex(self.polynomial)
-        return f"{self.name.latex} = {shown}" if self.name else shown
+    def latex(self, longest: int = 24) -> str:
+        """The polynomial, cut where it is long; what a named quantity is on the configuration space."""
+        if self.name is None or self._multiple is not None:
+            shown = polynomial_latex(self._multiple or self.polynomial, longest)
+            return f"{self.name.quantity.latex} = {shown}" if self.name else shown
+        scale = polynomial_latex(self.name.scale, SHORT)
+        if len(self.name.scale) > 1:
+            scale = rf"\left({scale}\right)"
+        root = rf"\sqrt{{{self.name.radicand}}}" if self.name.radicand != 1 else ""
+        outer = r"\, ".join(part for part in (scale, root) if part not in ("", "1"))
+        return (
+            rf"{self.name.quantity.latex} = {outer}\left({polynomial_latex(self.polynomial, longest)}\right)"
+        )
+
+    def text(self, longest: int | None = None) -> str:
+        r"""The same as plain text; longest: terms before polynomials are cut, None for no cut.
+
+        >>> from singsym.elimination.geometry import Quantity
+        >>> from singsym.polynomials import Ring
+        >>> R = Ring(("x", "y"))
+        >>> x, y = R.gens
+        >>> name = GeometricName(Quantity(r"u \cdot v", "u.v", "axes u and v perpendicular"), R.constant(3))
+        >>> print(Factor(x + y, name=name), Factor(x + y, name=name).latex())
+        u.v = 3*(x + y)  (axes u and v perpendicular) u \cdot v = 3\left(x + y\right)
+        """
+        if self.name is None or self._multiple is not None:
+            shown = _text(self._multiple or self.polynomial, longest)
+            return f"{self.name.quantity.text} = {shown}" if self.name else shown
+        scale = _text(self.name.scale, longest)
+        if len(self.name.scale) > 1:
+            scale = f"({scale})"
+        root = f"sqrt({self.name.radicand})" if self.name.radicand != 1 else ""
+        outer = [part for part in (scale, root) if part not in ("", "1")]
+        shown = _text(self.polynomial, longest)
+        whole = "*".join((*outer, f"({shown})" if len(self.polynomial) > 1 else shown))
+        return f"{self.name.quantity.text} = {whole}"
+
+    @cached_property
+    def _multiple(self) -> Polynomial | None:
+        """What the named quantity is as one polynomial, where that is as short as a product."""
+        if self.name is None or self.name.radicand != 1 or not self.name.scale.is_constant:
+            return None
+        unit = abs(self.name.scale.constant) == 1
+        return self.polynomial * self.name.scale if unit or len(self.polynomial) == 1 else None
 
     def __str__(self) -> str:
-        shown = str(self.polynomial)
-        return f"{self.name.text} = {shown}  ({self.name.words})" if self.name else shown
+        return f"{self.text()}  ({self.words})" if self.name else self.text()
+
+
+def _text(polynomial: Polynomial, longest: int | None) -> str:
+    return str(polynomial) if longest is None else polynomial.short_text(longest)
 
 
 _INDEXED = re.compile(r"(?P<letter>[a-zA-Z])(?:_(?P<index>\w+)|(?P<other>[0-9A-Z]\w*))")
@@ -350,6 +396,6 @@ def conditions(equation: VelocityEquation, reduction: Reduction | None = None) -
     >>> from singsym.mechanism import load
     >>> print(conditions(velocity_equation(load("fourbar")))["vii"])
     (vii) L_I is singular: RO or RPM, II or IIM
-      det[S_B S_C S_D] = By*Cx - Bx*Cy - 4*By + 4*Cy  (B, C, D collinear)
+      det[S_B S_C S_D] = -By*Cx + Bx*Cy + 4*By - 4*Cy  (B, C, D collinear)
     """
     return Conditions(equation, reduction or reduce(equation))

@@ -6,10 +6,14 @@ Source: section 4.1 of Zlatanov, Fenton, Benhabib (1998): conditions are linear 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from itertools import combinations, islice
+
+import sympy
+from flint import fmpq
 
 from singsym.kinematics.nonzero import Certifier
 from singsym.polynomials import Polynomial
@@ -21,12 +25,28 @@ Vector = tuple[Polynomial, ...]
 
 
 @dataclass(frozen=True)
-class GeometricName:
-    """How a factor is written, up to a constant, and what its vanishing says."""
+class Quantity:
+    """A determinant or product of named points and axes, and what its vanishing says.
+
+    S_A in a planar determinant is the screw (1, y, -x) of a turn about the point A = (x, y); det[A B C D] in
+    space has a row (1, x, y, z) for each point.
+    """
 
     latex: str
     text: str
     words: str
+
+
+@dataclass(frozen=True)
+class GeometricName:
+    """What a factor is called: on the configuration space the quantity is sqrt(`radicand`) `scale` times it.
+
+    scale: a polynomial without a feasible zero, mostly a constant; radicand: a whole number.
+    """
+
+    quantity: Quantity
+    scale: Polynomial
+    radicand: int = 1
 
 
 def _symbol(name: str) -> str:
@@ -49,20 +69,26 @@ def _cross(a: Vector, b: Vector) -> Vector:
     return tuple(a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2] for i in range(3))
 
 
+def _ratio(a: Polynomial, b: Polynomial) -> fmpq:
+    """The rational number that one polynomial is of another with the same primitive form."""
+    return a.terms()[0][1] / b.terms()[0][1]
+
+
 @dataclass(frozen=True, eq=False)
 class PointNames:
     """Recognises polynomials as determinants of a configuration space's named points and axes.
 
-    A name is given only where the polynomial and the determinant agree, on the circles and spheres of the
-    configuration space, up to a factor proved nonzero.
+    A name is given only where the determinant is the polynomial times a factor proved nonzero, on the circles
+    and spheres of the configuration space; the name carries that factor.
 
     >>> from singsym.kinematics.placement import ConfigurationSpace
     >>> from singsym.polynomials import Ring
     >>> R = Ring(("x", "y"))
     >>> x, y = R.gens
     >>> points = {"A": (R.zero, R.zero), "B": (R.one, R.one), "C": (x, y)}
-    >>> PointNames(Certifier(ConfigurationSpace(R, (), points=points))).recognise(x - y).words
-    'A, B, C collinear'
+    >>> found = PointNames(Certifier(ConfigurationSpace(R, (), points=points))).recognise(2 * x - 2 * y)
+    >>> found.quantity.words, found.scale
+    ('A, B, C collinear', -1/2)
     """
 
     certifier: Certifier
@@ -77,49 +103,52 @@ class PointNames:
 
     def recognise(self, polynomial: Polynomial) -> GeometricName | None:
         """The name of a factor; None where none of the determinants of named points is it."""
-        wanted = self.certifier.normal_form(polynomial).primitive()
+        own = self.certifier.normal_form(polynomial)
+        wanted = own.primitive()
         square = self.certifier.normal_form(wanted * wanted).primitive()
-        for value, name in self._lengths:
-            if value == square:
-                return name
-        for value, name in self._candidates:
-            if value == wanted:
-                return name
-        for value, name in self._candidates:
-            if wanted.divides(value) and self.certifier.reason(value.exact_quotient(wanted)) is not None:
-                return name
+        for key, value, quantity in self._lengths:
+            if key == square:
+                ratio = _ratio(value, self.certifier.normal_form(own * own))
+                coefficient, root = sympy.sqrt(sympy.Rational(int(ratio.p), int(ratio.q))).as_coeff_Mul()
+                scale = polynomial.ring.constant(Fraction(int(coefficient.p), int(coefficient.q)))
+                return GeometricName(quantity, scale, int(root**2))
+        for key, value, quantity in self._candidates:
+            if key == wanted:
+                return GeometricName(quantity, polynomial.ring.constant(_ratio(value, own)))
+        for _, value, quantity in self._candidates:
+            if wanted.divides(value):
+                scale = value.exact_quotient(own)
+                if self.certifier.reason(scale) is not None:
+                    return GeometricName(quantity, scale)
         return None
 
     @cached_property
-    def _lengths(self) -> tuple[tuple[Polynomial, GeometricName], ...]:
+    def _lengths(self) -> tuple[tuple[Polynomial, Polynomial, Quantity], ...]:
         """Squared distances in space: a polynomial whose square is one vanishes exactly where it does."""
         if len(next(iter(self._points.values()), ())) != 3:
             return ()
-        found = []
-        for vector, name in self._on_lines():
-            normal = self.certifier.normal_form(_dot(vector, vector))
-            if not normal.is_constant:
-                found.append((normal.primitive(), name))
-        return tuple(found)
+        return self._normal((_dot(vector, vector), quantity) for vector, quantity in self._on_lines())
 
     @cached_property
-    def _candidates(self) -> tuple[tuple[Polynomial, GeometricName], ...]:
-        found = []
+    def _candidates(self) -> tuple[tuple[Polynomial, Polynomial, Quantity], ...]:
         dimension = len(next(iter(self._points.values()), ()))
         source = self._planar() if dimension == 2 else self._spatial() if dimension == 3 else iter(())
-        for value, name in source:
-            normal = self.certifier.normal_form(value)
-            if not normal.is_constant:
-                found.append((normal.primitive(), name))
-        return tuple(found)
+        return self._normal(source)
 
-    def _planar(self) -> Iterator[tuple[Polynomial, GeometricName]]:
+    def _normal(
+        self, source: Iterable[tuple[Polynomial, Quantity]]
+    ) -> tuple[tuple[Polynomial, Polynomial, Quantity], ...]:
+        """Primitive and normal forms of those that are not constant."""
+        found = ((self.certifier.normal_form(value), quantity) for value, quantity in source)
+        return tuple((v.primitive(), v, quantity) for v, quantity in found if not v.is_constant)
+
+    def _planar(self) -> Iterator[tuple[Polynomial, Quantity]]:
         for names in combinations(sorted(self._points), 3):
             p, q, r = (self._points[name] for name in names)
             a, b = _subtract(q, p), _subtract(r, p)
             yield a[0] * b[1] - a[1] * b[0], _determinant(names, "collinear")
 
-    def _on_lines(self) -> Iterator[tuple[Vector, GeometricName]]:
+    def _on_lines(self) -> Iterator[tuple[Vector, Quantity]]:
         """Vectors that vanish where three points are in line, or a point is on an axis through another."""
         names = sorted(self._points, key=lambda n: (sum(map(len, self._points[n])), n))
         axes = {n: tuple(v) for n, v in sorted(self.certifier.space.directions.items())}
@@ -130,7 +159,7 @@ class PointNames:
                 p, q, r = triple
                 latex = r" \times ".join(rf"\overrightarrow{{{_symbol(p)}{_symbol(x)}}}" for x in (q, r))
                 words = f"{', '.join(sorted(triple))} collinear"
-                yield _cross(a, b), GeometricName(rf"\pm|{latex}|", f"±|{p}{q} x {p}{r}|", words)
+                yield _cross(a, b), Quantity(rf"\pm|{latex}|", f"±|{p}{q} x {p}{r}|", words)
         for base, other in islice(combinations(names, 2), MANY // 10):
             away = _subtract(self._points[other], self._points[base])
             for u, axis in axes.items():
@@ -139,15 +168,15 @@ class PointNames:
                     words = f"{other} on the axis {u} through {base}"
                     yield (
                         _cross(away, axis),
-                        GeometricName(rf"\pm|{latex}|", f"±|{base}{other} x {u}|", words),
+                        Quantity(rf"\pm|{latex}|", f"±|{base}{other} x {u}|", words),
                     )
 
-    def _spatial(self) -> Iterator[tuple[Polynomial, GeometricName]]:
+    def _spatial(self) -> Iterator[tuple[Polynomial, Quantity]]:
         count = 0
         axes = {n: tuple(v) for n, v in sorted(self.certifier.space.directions.items())}
         for u, v in combinations(axes, 2):
             latex = rf"{_symbol(u)} \cdot {_symbol(v)}"
-            yield _dot(axes[u], axes[v]), GeometricName(latex, f"{u}.{v}", f"axes {u} and {v} perpendicular")
+            yield _dot(axes[u], axes[v]), Quantity(latex, f"{u}.{v}", f"axes {u} and {v} perpendicular")
         for p, q in combinations(sorted(self._points), 2):
             difference = _subtract(self._points[q], self._points[p])
             for u in axes:
@@ -155,13 +184,13 @@ class PointNames:
                     return
                 latex = rf"\overrightarrow{{{_symbol(p)}{_symbol(q)}}} \cdot {_symbol(u)}"
                 words = f"{p}{q} perpendicular to axis {u}"
-                yield _dot(difference, axes[u]), GeometricName(latex, f"{p}{q}.{u}", words)
+                yield _dot(difference, axes[u]), Quantity(latex, f"{p}{q}.{u}", words)
         for triple in islice(combinations(axes, 3), MANY // 10):
             one, two, three = (axes[name] for name in triple)
             if sum(len(e) for e in (*one, *two, *three)) < 24:
                 latex = rf"\det[{', '.join(map(_symbol, triple))}]"
                 words = f"axes {', '.join(triple[:2])} and {triple[2]} parallel to a plane"
-                yield _dot(one, _cross(two, three)), GeometricName(latex, f"det[{' '.join(triple)}]", words)
+                yield _dot(one, _cross(two, three)), Quantity(latex, f"det[{' '.join(triple)}]", words)
         for names in combinations(sorted(self._points), 4):
             if (count := count + 1) > MANY:
                 return
@@ -171,7 +200,7 @@ class PointNames:
                 yield _dot(a, _cross(b, c)), _determinant(names, "coplanar")
 
 
-def _determinant(names: tuple[str, ...], relation: str) -> GeometricName:
+def _determinant(names: tuple[str, ...], relation: str) -> Quantity:
     inside = r"\, ".join(f"S_{{{_symbol(n)}}}" if relation == "collinear" else _symbol(n) for n in names)
     text = " ".join(f"S_{n}" if relation == "collinear" else n for n in names)
-    return GeometricName(rf"\det[{inside}]", f"det[{text}]", f"{', '.join(names)} {relation}")
+    return Quantity(rf"\det[{inside}]", f"det[{text}]", f"{', '.join(names)} {relation}")

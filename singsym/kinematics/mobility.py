@@ -6,14 +6,14 @@ Source: Zlatanov, Fenton, Benhabib (1998), section 2.1; generic ranks: theory of
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-from singsym.kinematics.sampling import numerical_matrix, sample_configurations
+from singsym.kinematics.numerical_rank import numerical_rank
+from singsym.kinematics.sampling import sample_configurations
+from singsym.kinematics.scaling import scaled_matrix
 from singsym.kinematics.velocity import VelocityEquation
 
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+_TOLERANCE = 1e-7
+_NAMES = ("L", "L_I", "L_O", "L_p")
 
 
 @dataclass(frozen=True)
@@ -21,8 +21,9 @@ class Mobility:
     """Largest ranks seen at random configurations, numerically: hints for the user, not proofs.
 
     ranks: of L, L_I, L_O, L_p; gap: the smallest ratio between a singular value that was counted and the next
-    one; samples: how many configurations were found, regular: how many of them are nonsingular.  Fewer than
-    all point to components of another mobility.  messages: what contradicts N, n, inputs or outputs.
+    one; samples: how many configurations were found whose ranks are clear, regular: how many of them are
+    nonsingular.  Fewer than all point to components of another mobility.  messages: what contradicts N, n,
+    inputs or outputs.
     """
 
     ranks: dict[str, int]
@@ -41,38 +42,22 @@ def check_mobility(equation: VelocityEquation, seed: int = 0, count: int = 12) -
     {'L': 8, 'L_I': 8, 'L_O': 8, 'L_p': 6}
     """
     points = sample_configurations(equation.space, count, seed)
-    matrices = {"L": equation.L, "L_I": equation.L_I, "L_O": equation.L_O, "L_p": equation.L_p}
-    ranks = dict.fromkeys(matrices, 0)
-    gap, regular = float("inf"), 0
-    for point in points:
-        here = {name: numerical_rank(numerical_matrix(matrix, point)) for name, matrix in matrices.items()}
-        ranks = {name: max(ranks[name], rank) for name, (rank, _) in here.items()}
-        gap = min(gap, *(distance for _, distance in here.values()))
-        regular += here["L_I"][0] == here["L_O"][0] == equation.N
     if not points:
         nothing = "no configuration was found numerically: the loops may be impossible to close"
-        return Mobility(ranks, gap, 0, 0, (nothing,))
-    return Mobility(ranks, gap, len(points), regular, tuple(_messages(equation, ranks)))
-
-
-def numerical_rank(matrix: NDArray[np.float64], tolerance: float = 1e-8) -> tuple[int, float]:
-    """The rank of a matrix of floats, and the gap between the last counted singular value and the next.
-
-    >>> import numpy as np
-    >>> numerical_rank(np.diag([2.0, 1.0, 0.0]))
-    (2, inf)
-    """
-    import numpy as np
-
-    if not matrix.size:
-        return 0, float("inf")
-    rows = np.linalg.norm(matrix, axis=1, keepdims=True)
-    # rows are scaled to length one, so that the choice of the unit of length changes little
-    values = np.linalg.svd(matrix / np.where(rows > 0, rows, 1.0), compute_uv=False)
-    rank = int((values > tolerance * max(1.0, float(values[0]))).sum())
-    if rank == 0 or rank == len(values) or values[rank] == 0:
-        return rank, float("inf")
-    return rank, float(values[rank - 1] / values[rank])
+        return Mobility(dict.fromkeys(_NAMES, 0), float("inf"), 0, 0, (nothing,))
+    seen = []
+    for point in points:
+        parts = scaled_matrix(equation, point).submatrices()
+        here = {name: numerical_rank(part, _TOLERANCE, size=1.0) for name, part in parts.items()}
+        if all(found.is_clear for found in here.values()):
+            seen.append(here)
+    if not seen:
+        unclear = f"at all {len(points)} random configurations found, a rank is numerically unclear"
+        return Mobility(dict.fromkeys(_NAMES, 0), 1.0, 0, 0, (unclear,))
+    ranks = {name: max(here[name].rank for here in seen) for name in _NAMES}
+    gap = min(found.gap for here in seen for found in here.values())
+    regular = sum(here["L_I"].rank == here["L_O"].rank == equation.N for here in seen)
+    return Mobility(ranks, gap, len(seen), regular, tuple(_messages(equation, ranks)))
 
 
 def _messages(equation: VelocityEquation, ranks: dict[str, int]) -> list[str]:

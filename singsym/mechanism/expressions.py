@@ -27,7 +27,8 @@ from singsym.mechanism.problems import MechanismError, Problem, shorten
 MAX_LENGTH = 2000
 MAX_DEPTH = 30
 MAX_EXPONENT = 64
-MAX_BITS = 4096
+MAX_BITS = 340
+"""Numbers of 100 digits; their cubes are still floats."""
 FUNCTIONS = ("sqrt", "sin", "cos")
 RESERVED = (*FUNCTIONS, "angle", "length", "pi", "deg")
 
@@ -102,7 +103,10 @@ def expression(value: Any, names: Collection[str] = (), *, place: str = "", file
     if isinstance(value, str) and not isinstance(value, DecimalText):
         return parse(value, names, place=place, file=file)
     if isinstance(value, Rational):
-        return sympy.Rational(int(value.numerator), int(value.denominator))
+        number = sympy.Rational(int(value.numerator), int(value.denominator))
+        if fault := oversize(number):
+            raise MechanismError([Problem(place, *fault, file=file)])
+        return number
     try:
         return decimal(str(value).replace("_", ""))
     except ValueError:
@@ -118,8 +122,8 @@ def is_angle(value: sympy.Expr) -> bool:
 def oversize(value: sympy.Expr) -> tuple[str, str] | None:
     """What is too large in an expression for exact work, and the bound; None where nothing is.
 
-    >>> oversize(sympy.Integer(2) ** 5000)
-    ('a number too long to use', 'at most 4096 binary digits')
+    >>> oversize(sympy.Integer(2) ** 500)
+    ('a number too long to use', 'at most 340 binary digits')
     """
     if _depth(value) > 2 * MAX_DEPTH:
         return "nesting too deep", f"at most {2 * MAX_DEPTH} levels"

@@ -51,15 +51,24 @@ def load(name: str | Path) -> Mechanism:
         close = get_close_matches(str(name), library_names(), 3)
         advice = f"did you mean {' or '.join(close)}?" if close else "singsym list shows the library"
         raise FileNotFoundError(f"no file and no mechanism of the library is called {name}; {advice}")
-    if path.stat().st_size > MAX_SIZE:
-        found, expected = f"{path.stat().st_size} bytes", f"a mechanism file of at most {MAX_SIZE}"
-        raise MechanismError([Problem("file", found, expected, file=str(name))])
+    return loads(read_text(path), origin=str(name))
+
+
+def read_text(path: str | Path) -> str:
+    """The text of a file in UTF-8; raises `MechanismError` where it is none, or longer than `MAX_SIZE` bytes.
+
+    No more than that is read, so that a device without an end is refused at once.
+    """
+    with Path(path).open("rb") as stream:
+        data = stream.read(MAX_SIZE + 1)
+    if len(data) > MAX_SIZE:
+        found, expected = f"more than {MAX_SIZE} bytes", f"a file of at most {MAX_SIZE}"
+        raise MechanismError([Problem("file", found, expected, file=str(path))])
     try:
-        text = path.read_text(encoding="utf-8-sig")
+        return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         found = f"byte {error.object[error.start]:#x} at position {error.start}"
-        raise MechanismError([Problem("file", found, "text in UTF-8", file=str(name))]) from None
-    return loads(text, origin=str(name))
+        raise MechanismError([Problem("file", found, "text in UTF-8", file=str(path))]) from None
 
 
 def loads(text: str, origin: str = "") -> Mechanism:
@@ -81,15 +90,20 @@ def loads(text: str, origin: str = "") -> Mechanism:
     ... ''', origin="fourbar.toml")
     Mechanism('fourbar', 4 links, 4 joints)
     """
+    return _checked(tables(text, origin), origin)
+
+
+def tables(text: str, origin: str = "") -> dict[str, Any]:
+    """The tables of TOML text, numbers with a point as `DecimalText`; raises `MechanismError`."""
     if len(text) > MAX_SIZE:
-        found, expected = f"{len(text)} characters", f"a mechanism file of at most {MAX_SIZE}"
+        found, expected = f"{len(text)} characters", f"a file of at most {MAX_SIZE}"
         raise MechanismError([Problem("file", found, expected, file=origin)])
     if deep := _DEEP_KEY.search(text):
         # the time that the TOML reader takes grows with the square of a key's parts
         found, line = f"the key {shorten(deep[0])!r}", text.count("\n", 0, deep.start()) + 1
         raise MechanismError([Problem(f"line {line}", found, "keys of fewer than 50 parts", file=origin)])
     try:
-        data = tomllib.loads(text, parse_float=DecimalText)
+        return tomllib.loads(text, parse_float=DecimalText)
     except tomllib.TOMLDecodeError as error:
         twice = "Cannot overwrite a value" in str(error) or "Cannot declare" in str(error)
         found = f"a name for the second time: {error}" if twice else f"no TOML: {error}"
@@ -99,8 +113,7 @@ def loads(text: str, origin: str = "") -> Mechanism:
     except (RecursionError, ValueError) as error:
         # int() refuses more than 4300 digits, and the parser recurses on nested lists.
         found = "lists nested too deep" if isinstance(error, RecursionError) else f"no TOML: {error}"
-        raise MechanismError([Problem("file", found, "TOML of a mechanism", file=origin)]) from None
-    return _checked(data, origin)
+        raise MechanismError([Problem("file", found, "TOML", file=origin)]) from None
 
 
 def define(**keys: Any) -> Mechanism:

@@ -10,6 +10,7 @@ from typing import Any
 
 import sympy
 
+from singsym.mechanism.arcs import exact_arc
 from singsym.mechanism.expressions import Quantities, parse
 from singsym.mechanism.model import (
     Exclusion,
@@ -111,19 +112,15 @@ def read_limits(value: Any, known: Quantities, reader: Reader) -> tuple[Limit, .
 
 
 def _angle_limit(column: str, pair: list[Any], place: str, reader: Reader) -> Limit:
-    """low <= angle <= high as cos(angle - middle) >= cos(half the range), a polynomial condition."""
+    """low <= angle <= high, in cosine and sine."""
     low, high = (reader.angle(bound, place) if bound is not None else None for bound in pair)
     if low is None or high is None or not (high - low).is_nonnegative or not (2 * sympy.pi > high - low):
         found = kind_of(pair)
-        reader.report(place, found, "[low, high] less than a full turn apart, as [-90, 90] or [0, 2*pi/3]")
+        reader.report(
+            place, found, "[low, high], growing by less than a full turn, as [-90, 90] or [0, 2*pi/3]"
+        )
         return Limit(sympy.Integer(0))
-    return angle_limit(column, (low + high) / 2, sympy.cos((high - low) / 2))
-
-
-def angle_limit(column: str, middle: sympy.Expr, least_cosine: sympy.Expr) -> Limit:
-    """The limit cos(angle - middle) >= least_cosine of a joint's freedom."""
-    cosine, sine = sympy.Symbol(f"cos({column})"), sympy.Symbol(f"sin({column})")
-    return Limit(sympy.cos(middle) * cosine + sympy.sin(middle) * sine, low=least_cosine)
+    return exact_arc(column, low, high)
 
 
 def read_exclusions(value: Any, known: Quantities, reader: Reader) -> tuple[Exclusion, ...]:

@@ -92,7 +92,8 @@ def _scaled_joint(joint: Joint, factor: sympy.Rational) -> Joint:
 def _scaled_limit(limit: Limit, factor: sympy.Rational) -> Limit:
     power = factor ** _degree(limit.expression)
     low, high = (None if bound is None else bound * power for bound in (limit.low, limit.high))
-    return Limit(_scaled_expression(limit.expression, factor), low, high)
+    expression = _scaled_expression(limit.expression, factor)
+    return replace(limit, expression=expression, low=low, high=high)
 
 
 def _scaled_exclusion(exclusion: Exclusion, factor: sympy.Rational) -> Exclusion:

@@ -5,6 +5,7 @@ Source: the URDF specification (https://wiki.ros.org/urdf/XML), read by yourdfpy
 
 from __future__ import annotations
 
+import io
 import math
 import re
 from collections.abc import Sequence
@@ -15,6 +16,7 @@ from typing import Any
 
 import sympy
 
+from singsym.mechanism.arcs import decimal_arc
 from singsym.mechanism.checks import check
 from singsym.mechanism.expressions import RESERVED, expression
 from singsym.mechanism.model import (
@@ -29,7 +31,7 @@ from singsym.mechanism.model import (
     Twist,
     Vector,
 )
-from singsym.mechanism.outputs import TWISTS, angle_limit
+from singsym.mechanism.outputs import TWISTS
 from singsym.mechanism.problems import MechanismError, Problem
 
 TOLERANCE = 1e-4
@@ -55,27 +57,42 @@ def from_urdf(path: str | Path, tip: str | None = None, components: Sequence[str
     turns within `TOLERANCE`, else rational rotations within 1e-5, and `description` says so.
     Raises `ImportError` without yourdfpy, `MechanismError` for what the file lacks.
     """
-    try:
-        import yourdfpy
-    except ImportError:
-        raise ImportError("URDF files are read by yourdfpy: pip install 'singsym[urdf]'") from None
     file = str(path)
-    if not Path(path).is_file():
-        raise FileNotFoundError(f"no file is called {file}")
-    try:
-        robot = yourdfpy.URDF.load(
-            file, build_scene_graph=False, load_meshes=False, load_collision_meshes=False
-        ).robot
-    except (ValueError, TypeError, AttributeError, SyntaxError) as error:
-        found = f"{type(error).__name__}: {error}"
-        raise MechanismError(
-            [Problem("file", found, "URDF: <robot> with links and joints", file=file)]
-        ) from None
+    robot = _robot(Path(path), file)
     chain, notes = _chain(robot, tip, file)
-    mechanism = _Arm(file, notes).build(robot.name or Path(path).stem, chain, components)
+    mechanism = _Arm(file, notes).build(robot.name, chain, components)
     if problems := check(mechanism):
         raise MechanismError(problems)
     return mechanism
+
+
+def _robot(path: Path, file: str) -> Any:
+    """The links' names and the joints of a file; visuals, meshes and masses are not looked at."""
+    try:
+        import yourdfpy
+        from lxml import etree
+    except ImportError:
+        raise ImportError("URDF files are read by yourdfpy: pip install 'singsym[urdf]'") from None
+    if not path.is_file():
+        raise FileNotFoundError(f"no file is called {file}")
+    expected = "URDF: <robot> with links and joints"
+    # Prefixes of names that are not declared are usual in such files; other faults of the XML are not.
+    parser = etree.XMLParser(recover=True, resolve_entities=False, no_network=True)
+    content = path.read_bytes()
+    root = etree.fromstring(content, parser) if content.strip() else None
+    faults = [f"line {e.line}: {e.message}" for e in parser.error_log if e.domain_name != "NAMESPACE"]
+    if faults or root is None or root.tag != "robot":
+        found = faults[0] if faults else "no XML" if root is None else f"<{root.tag}>"
+        raise MechanismError([Problem("file", found, expected, file=file)])
+    bare = etree.Element("robot", name=root.get("name") or path.stem)
+    for link in root.findall("link"):
+        etree.SubElement(bare, "link", {key: link.get(key) for key in ("name",) if key in link.attrib})
+    bare.extend(root.findall("joint"))
+    try:
+        return yourdfpy.URDF.load(io.BytesIO(etree.tostring(bare)), build_scene_graph=False).robot
+    except (ValueError, TypeError, AttributeError, LookupError) as error:
+        found = f"{type(error).__name__}: {error}"
+        raise MechanismError([Problem("file", found, expected, file=file)]) from None
 
 
 def _chain(robot: Any, tip: str | None, file: str) -> tuple[list[Any], list[str]]:
@@ -224,27 +241,26 @@ class _Arm:
         return exact / sympy.sqrt(exact.dot(exact))
 
     def limit(self, name: str, turning: bool, limit: Any) -> None:
-        """Lengths as spelled; a range of angle as a bound on a cosine, rounded to six digits."""
-        low, high = limit.lower, limit.upper
-        if low is None or high is None or not (math.isfinite(low) and math.isfinite(high)) or low >= high:
+        """A length's range as spelled; an angle's in cosine and sine, with ends rounded outwards."""
+        # What is not given is zero, says the specification.
+        low, high = float(limit.lower or 0), float(limit.upper or 0)
+        if low == high:
+            self.notes.append(f"Limits of {name}: left out, as both are {low:g}.")
             return
+        if not low < high:
+            found, expected = f"the limits {low} and {high}", "the lower limit first"
+            raise MechanismError([Problem(f"joint {name}", found, expected, file=self.file)])
         if not turning:
-            bounds = expression(float(low)), expression(float(high))
-            self.limits.append(Limit(sympy.Symbol(f"length({name})"), *bounds))
-            return
-        half, middle = (high - low) / 2, (high + low) / 2
-        if half >= math.pi:
-            return
-        least = expression(round(math.cos(half), 6))
-        if abs(middle) < 1e-6:
-            self.limits.append(angle_limit(name, sympy.Integer(0), least))
-        else:
-            turn = rational_rotation(
-                [[math.cos(middle), -math.sin(middle), 0], [math.sin(middle), math.cos(middle), 0], [0, 0, 1]]
-            )
-            cosine, sine = sympy.Symbol(f"cos({name})"), sympy.Symbol(f"sin({name})")
-            self.limits.append(Limit(turn[0, 0] * cosine + turn[1, 0] * sine, low=least))
-        self.notes.append(f"Limits of {name}: cosines rounded to 1e-6.")
+            ends = (expression(end) if math.isfinite(end) else None for end in (low, high))
+            bounds = Limit(sympy.Symbol(f"length({name})"), *ends)
+            if bounds.low is not None or bounds.high is not None:
+                self.limits.append(bounds)
+        elif math.isfinite(low) and math.isfinite(high):
+            arc, words = decimal_arc(name, low, high)
+            if arc is not None:
+                self.limits.append(arc)
+            if words:
+                self.notes.append(f"Limits of {name}: {words}.")
 
 
 def rational_rotation(matrix: Sequence[Sequence[float]]) -> sympy.Matrix:

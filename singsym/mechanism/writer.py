@@ -82,12 +82,14 @@ def spell(expression: sympy.Expr) -> str:
     >>> x = sympy.Symbol("x")
     >>> spell(sympy.sqrt(3) * x / 2 - sympy.sin(2 * sympy.pi / 9))
     'sqrt(3)*x/2 - sin(2*pi/9)'
+    >>> spell((1 + sympy.sqrt(2)) ** sympy.Rational(7, 4))
+    '(sqrt(2) + 1)*sqrt(sqrt(sqrt(2) + 1))**3'
     """
-    # A half-integer power is written with sqrt, as a symbol of that spelling.
+    # The roots that sqrt gives, also one within another, are written as symbols of that spelling.
     roots = {
-        power: power.base ** sympy.floor(power.exp) * sympy.Symbol(f"sqrt({spell(power.base)})")
+        power: _whole(power.base) ** sympy.floor(power.exp) * _root(power) ** (power.exp.p % power.exp.q)
         for power in expression.atoms(sympy.Pow)
-        if power.exp.is_Rational and power.exp.q == 2
+        if power.exp.is_Rational and power.exp.q > 1 and int(power.exp.q).bit_count() == 1
     }
     spelled = expression.xreplace(roots)
     allowed = (sympy.Add, sympy.Mul, sympy.Pow, sympy.Rational, sympy.Symbol, sympy.sin, sympy.cos)
@@ -98,6 +100,17 @@ def spell(expression: sympy.Expr) -> str:
                 f"{part} cannot be written in a mechanism file: the grammar has no such expression"
             )
     return str(spelled)
+
+
+def _whole(base: sympy.Expr) -> sympy.Expr:
+    """The base of a whole power; one with roots of its own as a symbol of its spelling."""
+    return base if base.is_Atom else sympy.Symbol(f"({spell(base)})")
+
+
+def _root(power: sympy.Pow) -> sympy.Symbol:
+    """The root in a power, of index 2, 4, 8, ..., as a symbol spelled with sqrt."""
+    times = int(power.exp.q).bit_length() - 1
+    return sympy.Symbol(f"{'sqrt(' * times}{spell(power.base)}{')' * times}")
 
 
 def _number(value: sympy.Expr) -> str:

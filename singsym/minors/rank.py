@@ -11,9 +11,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain, combinations
 from math import comb, prod
-from typing import Any
 
-from flint import fmpq, fmpq_mat, nmod_mat
+from flint import fmpq, fmpq_mat
 
 from singsym.kinematics.nonzero import Certifier
 from singsym.kinematics.reduction import Elimination, eliminate, reduce_submatrix
@@ -21,42 +20,6 @@ from singsym.minors.blocks import diagonal_blocks, sparser
 from singsym.minors.determinant import maximal_minors
 from singsym.minors.factored import factored
 from singsym.polynomials import Polynomial, PolynomialMatrix
-
-
-@dataclass(frozen=True)
-class NumericalRank:
-    """Singular values, largest first, and the rank at a threshold.
-
-    gap: the smallest singular value kept over the largest one dropped; infinite where none is dropped or
-    the dropped ones are zero.
-    """
-
-    rank: int
-    singular_values: tuple[float, ...]
-    threshold: float
-
-    @property
-    def gap(self) -> float:
-        values = self.singular_values
-        if self.rank == len(values) or not self.rank or not values[self.rank]:
-            return float("inf")
-        return values[self.rank - 1] / values[self.rank]
-
-
-def numerical_rank(rows: Sequence[Sequence[float]], relative: float = 1e-9) -> NumericalRank:
-    """The rank of a matrix of floats: singular values above `relative` times the largest one.
-
-    >>> numerical_rank([[1.0, 2.0], [2.0, 4.0]]).rank
-    1
-    """
-    import numpy
-
-    matrix = numpy.array(rows, dtype=float)
-    if not matrix.size:
-        return NumericalRank(0, (), 0.0)
-    values = tuple(float(v) for v in numpy.linalg.svd(matrix, compute_uv=False))
-    threshold = relative * values[0]
-    return NumericalRank(sum(v > threshold for v in values), values, threshold)
 
 
 def rank_at(matrix: PolynomialMatrix, point: Sequence[fmpq]) -> int:
@@ -71,28 +34,6 @@ def rank_at(matrix: PolynomialMatrix, point: Sequence[fmpq]) -> int:
     if not height or not width:
         return 0
     return int(fmpq_mat(height, width, [fmpq(e) for e in chain(*matrix.evaluate(point))]).rank())
-
-
-def rank_modulo(matrix: PolynomialMatrix, point: Sequence[int], prime: int) -> int:
-    """The rank over a prime field at a point with integer coordinates.
-
-    Raises `ZeroDivisionError` where the prime divides a denominator of the coefficients.
-    """
-    height, width = matrix.shape
-    if not height or not width:
-        return 0
-    values: list[int] = []
-    for entry in chain(*matrix.rows):
-        total = 0
-        for exponents, c in entry.terms():
-            if int(c.q) % prime == 0:
-                raise ZeroDivisionError(f"{prime} divides a denominator of {entry}: take another prime")
-            term = int(c.p) * pow(int(c.q), -1, prime)
-            for value, e in zip(point, exponents, strict=True):
-                term = term * pow(value, int(e), prime) % prime
-            total += term
-        values.append(total % prime)
-    return int(nmod_mat(height, width, values, prime).rank())
 
 
 @dataclass(frozen=True)
@@ -278,8 +219,3 @@ def rank_locus(matrix: PolynomialMatrix, rank: int, certifier: Certifier) -> Ran
         return None
     loci = (full_rank_locus(block, certifier) for block in blocks)
     return RankLocus(tuple(locus for locus in loci if locus is not None))
-
-
-def numerical_ranks(matrices: dict[str, PolynomialMatrix], point: Sequence[Any]) -> dict[str, NumericalRank]:
-    """The numerical rank of each matrix at a point of floats."""
-    return {name: numerical_rank(matrix.evaluate(point)) for name, matrix in matrices.items()}

@@ -93,7 +93,7 @@ def _condition(condition: Condition) -> dict[str, Any]:
                 {
                     "polynomial": str(f.polynomial),
                     "multiplicity": f.multiplicity,
-                    "name": f.name.text if f.name else "",
+                    "name": f.name.quantity.text if f.name else "",
                     "words": f.words,
                     "latex": f.latex(),
                 }
@@ -171,9 +171,9 @@ def analysis_data(name: str, found: Analysis) -> dict[str, Any]:
         "N": found.equation.N,
         "n": found.equation.n,
         "exact": found.exact,
-        "variables": dict(found.values),
-        "points": {k: list(v) for k, v in found.points.items()},
-        "joints": dict(found.joints),
+        "variables": {k: _number(x, found.digits) for k, x in found.values.items()},
+        "points": {k: [_number(x, found.digits) for x in place] for k, place in found.points.items()},
+        "joints": {k: _number(x, found.digits) for k, x in found.joints.items()},
         "residual": None
         if located is None
         else {"before": located.before, "after": located.after, "moved": located.moved},
@@ -185,8 +185,8 @@ def analysis_data(name: str, found: Analysis) -> dict[str, Any]:
                 "rank": m.rank,
                 "regular": m.full,
                 "singular_values": list(m.singular_values),
-                "distance": m.distance,
-                "gap": None if m.gap == float("inf") else m.gap,
+                "distance": _finite(m.distance),
+                "gap": _finite(m.gap),
             }
             for key, m in found.matrices.items()
         },
@@ -197,4 +197,18 @@ def analysis_data(name: str, found: Analysis) -> dict[str, Any]:
             {"type": m.type.name, "restriction": m.restriction, "rates": dict(m.rates)} for m in found.motions
         ],
         "remarks": list(found.remarks),
+        "undecided": found.undecided or None,
     }
+
+
+def _finite(value: float) -> float | None:
+    return None if value == float("inf") else value
+
+
+def _number(value: Any, digits: int) -> float | str:
+    """A float as it is, an mpmath number as text with its digits."""
+    if isinstance(value, (int, float)):
+        return float(value)
+    import mpmath
+
+    return str(mpmath.nstr(value, digits))

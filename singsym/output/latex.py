@@ -231,10 +231,8 @@ def _alternative(factors: Iterable[Factor]) -> str:
 
 
 def _factor(factor: Factor, longest: int) -> str:
-    shown = polynomial_latex(factor.polynomial, longest)
-    if factor.name is None:
-        return f"${shown} = 0$"
-    return f"${factor.name.latex} = {shown} = 0$, {escaped(factor.words)}"
+    words = f", {escaped(factor.words)}" if factor.words else ""
+    return f"${factor.latex(longest)} = 0${words}"
 
 
 # -- classes -----------------------------------------------------------------------------------------

@@ -6,11 +6,10 @@ the motions themselves are numerical, for drawing.
 
 from __future__ import annotations
 
-import numpy as np
-
-from singsym.classes.motions import Motion, null_motions
+from singsym.classes.motions import Motion, null_motions, numerical_kernels
 from singsym.classes.types import Defects, SingularityType
-from singsym.kinematics.sampling import numerical_matrix
+from singsym.kinematics.numerical_rank import numerical_rank
+from singsym.kinematics.scaling import scaled_matrix
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.output.plot_style import Floats
 
@@ -24,14 +23,15 @@ WORDS = {
 
 def motions_at(equation: VelocityEquation, point: Floats, defects: Defects) -> tuple[Motion, ...]:
     """All null motions and restrictions of a configuration whose rank defects are known."""
-    matrix = numerical_matrix(equation.matrix, point)
+    scaled = scaled_matrix(equation, point)
+    seen = {name: numerical_rank(part) for name, part in scaled.submatrices().items()}
     ranks = {
         "L": equation.N - defects.delta,
         "L_I": equation.N - defects.k_I,
         "L_O": equation.N - defects.k_O,
         "L_p": equation.N - equation.n - defects.p,
     }
-    return null_motions(equation, matrix, np.ones(matrix.shape[1]), ranks, defects.types)
+    return null_motions(equation, numerical_kernels(scaled, seen, ranks), scaled.units, defects.types)
 
 
 def drawn_motions(motions: tuple[Motion, ...]) -> tuple[Motion, ...]:

@@ -349,7 +349,7 @@ def _equations(classification: Classification) -> str:
     parts.append("<h3>Loci</h3>")
     for i, locus in enumerate(classification.loci):
         head, named, _ = locus.latex.partition(" = ")
-        lead = f"{math.name(head)}<mo>=</mo>" if named and locus.words else ""
+        lead = f"{math.name(head)}<mo>=</mo><mn>0</mn><mo>⇔</mo>" if named and locus.words else ""
         words = f": {escape(locus.words)}" if locus.words else ""
         used = [c.singularity_class.number for c in classification.classes if _uses(c, i, classification)]
         where = ", ".join(f'<a href="#class-{n}">class {n}</a>' for n in used)

@@ -150,11 +150,8 @@ def condition_text(condition: Condition) -> str:
     for place, alternative in enumerate(condition.alternatives or ()):
         lead = "  if " if place == 0 else "  or "
         for factor in alternative:
-            shown = factor.polynomial.short_text(LONGEST)
-            if factor.name:
-                shown = f"{factor.name.text} = {shown}"
             words = f"  ({factor.words})" if factor.words else ""
-            lines.append(f"{lead}{shown} = 0{words}")
+            lines.append(f"{lead}{factor.text(LONGEST)} = 0{words}")
             lead = "     and "
     lines += [f"  without the factor {unit}" for unit in condition.units]
     return "\n".join(lines)
@@ -332,13 +329,15 @@ def analysis_page(name: str, found: Analysis) -> Page:
     places = points_text(points) or values_text(found.values)
     where = "\n".join(filter(None, (places, values_text(found.joints))))
     ranks = tuple(
-        (name, str(m.rank), str(m.full), f"{m.distance:.2e}", "" if m.gap == float("inf") else f"{m.gap:.1e}")
+        (name, str(m.rank), str(m.full), _finite(f"{m.distance:.2e}"), _finite(f"{m.gap:.1e}"))
         for name, m in found.matrices.items()
     )
     headers = ("matrix", "rank", "regular", "distance", "gap")
     delta, p, k_I, k_O = found.defects
     number = found.singularity_class.number if found.singularity_class else 0
     types = f"class {number} ({found.types})" if number else str(found.types)
+    if found.undecided:
+        types = f"undecided, as {found.undecided}: give more digits"
     result = f"delta = {delta}, p = {p}, k_I = {k_I}, k_O = {k_O}: {types}"
     blocks: list[Block] = [head, where, _how(found), Grid(headers, ranks), result]
     if found.motions:
@@ -348,16 +347,23 @@ def analysis_page(name: str, found: Analysis) -> Page:
     return tuple(blocks)
 
 
+def _finite(number: str) -> str:
+    return "" if number == "inf" else number
+
+
 def _how(found: Analysis) -> str:
-    distance = "distance: smallest singular value over largest"
+    from singsym.classes.given import DOUBLE_DIGITS
+
+    distance = "distance: to the nearest matrix of too low a rank, by singular values"
+    scaled = f"lengths over {found.length:.4g}, unit joint screws"
     if found.located is None:
-        return f"The configuration is exact, and so are the ranks; {distance}."
+        return f"The configuration is exact, and so are the ranks.\n{distance}; {scaled}."
     near = found.located
+    many = f", with {found.digits} digits" if found.digits > DOUBLE_DIGITS else ""
     return (
-        f"Brought onto the loops: residual {near.before:.2e} before, {near.after:.2e} after, "
-        f"moved by {near.moved:.2e}.\n"
-        f"Ranks are numerical: lengths over {found.length:.4g}, joint columns of norm 1; "
-        f"singular values below {found.threshold:.1e} of the largest count as zero.\n"
+        f"Brought onto the loops{many}: residual {near.before:.2e} before, {near.after:.2e} after, "
+        f"moved by {near.moved:.2e}, relative to the sizes.\n"
+        f"Ranks are numerical: {scaled}; singular values below {found.threshold:.1e} count as zero.\n"
         f"{distance}; gap: last counted singular value over the next."
     )
 

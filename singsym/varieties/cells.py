@@ -14,7 +14,7 @@ import sympy
 
 from singsym.elimination.budget import Budget, Undecided, current
 from singsym.elimination.ideal import Ideal
-from singsym.elimination.verdict import Verdict
+from singsym.elimination.verdict import Verdict, certainties, weakest
 from singsym.polynomials import Polynomial, Rational, Ring, as_fmpq
 from singsym.varieties.decomposition import Component, decompose
 
@@ -138,9 +138,10 @@ class Cell:
         """
         with current(budget).part():
             try:
-                verdict = self._is_empty()
+                with certainties() as seen:
+                    verdict = self._is_empty()
                 if verdict.is_yes or (field == "complex" and not self.is_real):
-                    return verdict
+                    return replace(verdict, certainty=weakest(verdict.certainty, *seen))
                 if field == "complex":
                     return Verdict.undecided("the cell has inequalities: ask with field='real'")
                 from singsym.varieties.real.emptiness import is_empty_over_reals

@@ -6,13 +6,13 @@ Source: Chevalley's theorem and the algorithms of Cox, Little, O'Shea, "Ideals, 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from singsym.elimination.budget import Budget, Undecided, current
 from singsym.elimination.ideal import Ideal
-from singsym.elimination.verdict import Verdict
+from singsym.elimination.verdict import Verdict, weakest
 from singsym.polynomials import Polynomial, Rational, Ring
 from singsym.varieties.cells import Cell, Field
 from singsym.varieties.decomposition import Component, prune
@@ -135,8 +135,8 @@ class ConstructibleSet:
         reasons = [v.reason for v in verdicts if v.is_undecided]
         if reasons:
             return Verdict.undecided("; ".join(dict.fromkeys(reasons)))
-        weak = next((v for v in verdicts if v.certainty != "proven"), None)
-        return weak or Verdict.yes("proven", reason="every cell is empty")
+        certainty = weakest(*(v.certainty for v in verdicts))
+        return Verdict.yes(certainty, reason="every cell is empty")
 
     def is_subset(
         self, other: ConstructibleSet, field: Field = "complex", budget: Budget | None = None
@@ -175,8 +175,9 @@ class ConstructibleSet:
                 verdict = cell.is_empty()
                 if verdict.is_no or (cell.is_real and verdict.is_undecided):
                     kept.append(cell)
-                elif verdict.is_undecided:
-                    kept.append(replace(cell, undecided=verdict.reason))
+                elif verdict.certainty != "proven":
+                    reason = verdict.reason if verdict.is_undecided else "it is empty modulo random primes"
+                    kept.append(replace(cell, undecided=reason))
         return ConstructibleSet(self.ring, tuple(kept))
 
     # -- geometry --------------------------------------------------------------------------------
@@ -184,7 +185,7 @@ class ConstructibleSet:
     def components(self, budget: Budget | None = None) -> tuple[Component, ...]:
         """The components of the Zariski closure over Q, inequalities left out; raises `Undecided`."""
         with current(budget).part():
-            return prune(piece for cell in self.cells for piece in cell.pieces())
+            return prune(piece for cell in self.cells for piece in _closed_pieces(cell))
 
     @property
     def dimension(self) -> int:
@@ -192,19 +193,8 @@ class ConstructibleSet:
         return max((c.dimension for c in self.components()), default=-1)
 
     def closure(self, budget: Budget | None = None) -> ConstructibleSet:
-        """The Zariski closure over Q of the complex points, inequalities left out; raises `Undecided`.
-
-        A component not proven prime is saturated by the exclusions.
-        """
-        cells = []
-        with current(budget).part():
-            for cell in self.cells:
-                for piece in cell.pieces():
-                    ideal = piece.ideal
-                    for group in () if piece.prime else cell.exclusions:
-                        ideal = ideal.saturate(Ideal(self.ring, group))
-                    cells.append(Component(ideal, piece.prime, piece.dimension))
-        return ConstructibleSet.from_components(self.ring, prune(cells))
+        """The Zariski closure over Q of the complex points, inequalities left out; raises `Undecided`."""
+        return ConstructibleSet.from_components(self.ring, self.components(budget))
 
     def sample(self, n: int = 1, *, seed: int = 0, budget: Budget | None = None) -> tuple[Witness, ...]:
         """Up to n certified real points, found by numerical search; none found proves nothing.
@@ -243,6 +233,15 @@ class ConstructibleSet:
     def _repr_latex_(self) -> str:
         union = r" \cup ".join(cell.latex() for cell in self.cells)
         return f"${union or chr(92) + 'emptyset'}$"
+
+
+def _closed_pieces(cell: Cell) -> Iterator[Component]:
+    """The pieces of a cell's Zariski closure: those not proven prime are saturated by the exclusions."""
+    for piece in cell.pieces():
+        ideal = piece.ideal
+        for group in () if piece.prime else cell.exclusions:
+            ideal = ideal.saturate(Ideal(cell.ring, group))
+        yield piece if ideal is piece.ideal else Component(ideal, False, ideal.dimension)
 
 
 def _both(first: Verdict, second: Verdict) -> Verdict:

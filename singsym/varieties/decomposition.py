@@ -6,8 +6,9 @@ and the order of work measured on linkages: factor, branch, substitute, and exte
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Literal
 
 from singsym.elimination import engines
 from singsym.elimination.budget import Budget, Undecided, current
@@ -28,12 +29,18 @@ _PROOF_SECONDS = 10.0
 _LONGEST_CUT = 300
 """An ideal is not taken apart along a longer polynomial, which would take too long to factor."""
 
+Purity = Literal["unknown", "unmixed", "Cohen-Macaulay"]
+"""What is proven of the primary components of an ideal: unmixed ones have all one dimension, and so none is
+embedded; Cohen-Macaulay ideals are unmixed."""
+
 
 @dataclass(frozen=True)
 class Component:
     """A piece of a variety: its ideal, whether that is proven prime over Q, and its dimension.
 
-    cohen_macaulay: whether the ideal is known to be so: of one dimension, without embedded components.
+    The dimension is the largest one; a piece where neither prime nor purity is proven may hold smaller
+    components beside it, which need not be in other pieces.  What needs a single dimension takes a
+    `PurePiece` (see `purity`).
 
     >>> x, y = Ring(("x", "y")).gens
     >>> decompose([x * y], ring=x.ring)
@@ -43,7 +50,7 @@ class Component:
     ideal: Ideal
     prime: bool
     dimension: int
-    cohen_macaulay: bool = field(default=False, compare=False)
+    purity: Purity = field(default="unknown", compare=False)
 
     @property
     def generators(self) -> tuple[Polynomial, ...]:
@@ -51,8 +58,11 @@ class Component:
 
     @property
     def is_pure(self) -> bool:
-        """Whether all components over C are known to have the dimension."""
-        return self.prime or self.cohen_macaulay
+        """Whether all components over C are proven to have the dimension.
+
+        Those of a prime over Q are conjugate to each other.
+        """
+        return self.prime or self.purity != "unknown"
 
     def __repr__(self) -> str:
         shown = ", ".join(map(str, self.generators[:3])) or "0"
@@ -69,9 +79,6 @@ class Component:
         return self.ideal.contains(p) or (not self.prime and self.ideal.radical_contains(p))
 
 
-Keep = Callable[[Component], bool]
-
-
 def decompose(
     equations: Sequence[Polynomial],
     nonzero: Sequence[Polynomial] = (),
@@ -79,13 +86,12 @@ def decompose(
     ring: Ring,
     budget: Budget | None = None,
     progress: Sink | None = None,
-    keep: Keep | None = None,
 ) -> tuple[Component, ...]:
     """The pieces of V(equations) on which no polynomial of `nonzero` vanishes throughout.
 
     Their union contains V(equations) minus V(product of nonzero), over the complex numbers, and none contains
-    another.  The relations of the ring's algebraic constants count as equations.  `keep` may drop pieces,
-    also partial ones in fewer variables.  Raises `Undecided` where the budget ends.
+    another.  The relations of the ring's algebraic constants count as equations.  Where time ends a piece
+    is left as it is, not proven prime or of one dimension.  Raises `Undecided` where the budget ends.
 
     >>> x, y = Ring(("x", "y")).gens
     >>> decompose([x**2 - y**2, x * y - y], [y], ring=x.ring)
@@ -96,10 +102,8 @@ def decompose(
         return ()
     given = (*ring.relations, *(ring.convert(p) for p in equations))
     with current(budget).part(), to(progress):
-        pieces = _branch(ring, given, forbidden, keep)
-        full = [_in_ring(piece, ring) for piece in pieces]
-        kept = [c for c in full if not any(c.vanishes(p) for p in forbidden) and (keep is None or keep(c))]
-        return prune(kept)
+        full = [_in_ring(piece, ring) for piece in _branch(ring, given, forbidden)]
+        return prune(c for c in full if not any(c.vanishes(p) for p in forbidden))
 
 
 def prune(components: Iterable[Component]) -> tuple[Component, ...]:
@@ -117,17 +121,13 @@ def _in_ring(piece: Component, ring: Ring) -> Component:
     free = len(ring.names) - len(piece.ideal.ring.names)
     ideal = Ideal(ring, tuple(ring.convert(p) for p in piece.generators), piece.ideal.given)
     basis = ideal.groebner_basis()
-    return Component(
-        Ideal(ring, basis, ideal.certainty), piece.prime, piece.dimension + free, piece.cohen_macaulay
-    )
+    return Component(Ideal(ring, basis, ideal.certainty), piece.prime, piece.dimension + free, piece.purity)
 
 
 # -- branching on the given equations ------------------------------------------------------------------
 
 
-def _branch(
-    ring: Ring, equations: tuple[Polynomial, ...], nonzero: frozenset[Polynomial], keep: Keep | None
-) -> list[Component]:
+def _branch(ring: Ring, equations: tuple[Polynomial, ...], nonzero: frozenset[Polynomial]) -> list[Component]:
     """Branch on factors and substitute until every equation is irreducible, then work level by level."""
     current().check("decomposition")
     factored = factor_equations(equations, nonzero)
@@ -139,12 +139,12 @@ def _branch(
         found: list[Component] = []
         for i, f in enumerate(chosen):
             # The part of V(f) inside an earlier factor is in an earlier branch.
-            found += _branch(ring, (*rest, f), nonzero | frozenset(chosen[:i]), keep)
+            found += _branch(ring, (*rest, f), nonzero | frozenset(chosen[:i]))
         return found
     single = tuple(f[0] for f in factored)
     substitution = linear_substitution(single)
     if substitution is None:
-        return _by_levels(used_ring(ring, single), single, nonzero, keep)
+        return _by_levels(used_ring(ring, single), single, nonzero)
     smaller = ring.with_names(n for n in ring.names if n != substitution.name)
     remaining = irreducible_factors(substitution.apply(nonzero))
     if remaining is None:
@@ -153,7 +153,6 @@ def _branch(
         smaller,
         tuple(smaller.convert(p) for p in substitution.apply(single)),
         frozenset(smaller.convert(p) for p in remaining),
-        keep,
     )
     return [_lifted(piece, substitution.equation) for piece in pieces]
 
@@ -171,16 +170,15 @@ def _lifted(piece: Component, equation: Polynomial) -> Component:
     ring = equation.ring.with_names(n for n in equation.ring.names if n in names)
     free = len(ring.names) - len(piece.ideal.ring.names) - 1
     generators = (*(ring.convert(p) for p in piece.generators), ring.convert(equation))
-    return Component(
-        Ideal(ring, generators, piece.ideal.given), piece.prime, piece.dimension + free, piece.cohen_macaulay
-    )
+    ideal = Ideal(ring, generators, piece.ideal.given)
+    return Component(ideal, piece.prime, piece.dimension + free, piece.purity)
 
 
 def _by_levels(
-    ring: Ring, equations: tuple[Polynomial, ...], nonzero: frozenset[Polynomial], keep: Keep | None
+    ring: Ring, equations: tuple[Polynomial, ...], nonzero: frozenset[Polynomial]
 ) -> list[Component]:
     """Decompose the equations of the first few variables, then extend every piece by the next ones."""
-    pieces = [Component(Ideal(ring.with_names(()), ()), True, 0, True)]
+    pieces = [Component(Ideal(ring.with_names(()), ()), True, 0, "Cohen-Macaulay")]
     steps = levels(equations)
     for count, level in enumerate(steps):
         report("decompose", f"{len(level.names)} variables, {len(pieces)} pieces", count, len(steps))
@@ -192,9 +190,9 @@ def _by_levels(
             base = tuple(inner.convert(p) for p in piece.generators)
             fresh = len(level.names) - len(piece.ideal.ring.names)
             least = piece.dimension + fresh - len(added) if piece.is_pure else 0
-            found += _refine(_System(inner, (*base, *added), known, least, piece.cohen_macaulay))
-        found = [_in_ring(piece, inner) for piece in found]
-        pieces = list(prune(c for c in found if keep is None or keep(c)))
+            macaulay = piece.purity == "Cohen-Macaulay"
+            found += _refine(_System(inner, (*base, *added), known, least, macaulay))
+        pieces = list(prune(_in_ring(piece, inner) for piece in found))
     return pieces
 
 
@@ -205,8 +203,9 @@ def _by_levels(
 class _System:
     """Equations to split, and what is known of their zeros outside those of `nonzero`.
 
-    least: no component has a smaller dimension (Krull: each equation takes off one at most); pieces below it
-    lie in others and are dropped.  macaulay: if `least` is the dimension, the ideal is Cohen-Macaulay.
+    least: no component of the set that is being split has a smaller dimension (Krull: each equation takes
+    one at most off a set of a single dimension); the parts below it lie in others and are dropped.  macaulay:
+    if `least` is the dimension, the ideal is Cohen-Macaulay (unmixedness theorem).
     """
 
     ring: Ring
@@ -261,7 +260,7 @@ def _by_basis(system: _System) -> tuple[Component, ...]:
     ideal = Ideal(system.ring, system.equations)
     basis = ideal.groebner_basis()
     if not basis:
-        return (Component(ideal, True, len(system.ring.names), True),)
+        return (Component(ideal, True, len(system.ring.names), "Cohen-Macaulay"),)
     if basis[0].is_constant:
         return ()
     dimension = len(independent_variables(leading_exponents(basis), len(system.ring.names)))
@@ -284,28 +283,57 @@ def _by_basis(system: _System) -> tuple[Component, ...]:
 def _by_eliminant(system: _System, ideal: Ideal, dimension: int) -> tuple[Component, ...]:
     ring, proven = system.ring, ideal.certainty == "proven"
     if len(ideal.generators) == 1:
-        return (Component(ideal, proven, dimension, True),)
-    unmixed = system.macaulay and system.least == dimension
-    found = _analysed(ideal, unmixed)
+        return (Component(ideal, proven, dimension, "Cohen-Macaulay"),)
+    found = _analysed(ideal, system.macaulay and system.least == dimension)
     if found.factors and not any(ideal.contains(f) for f in found.factors):
         pieces = [_in_ring(p, ring) for f in found.factors for p in _refine(system.plus(f))]
         return prune(pieces)
-    if found.complete:
-        return (Component(ideal, proven, dimension, True),)
-    if found.cut is not None and len(found.cut) <= _LONGEST_CUT:
-        curve = ideal.saturate(found.cut)
-        beside = [_in_ring(p, ring) for p in _refine(system.plus(found.cut))]
-        return prune((Component(curve, curve.certainty == "proven", dimension, True), *beside))
-    return _by_engine(ideal) or (Component(ideal, False, dimension, unmixed),)
+    if not found.prime and (primes := _by_engine(ideal)):
+        return primes
+    purity: Purity = "Cohen-Macaulay" if found.macaulay else "unmixed"
+    if found.beside is not None and found.beside.is_constant:
+        return (Component(ideal, proven and found.prime, dimension, purity),)
+    if found.beside is not None and len(found.beside) <= _LONGEST_CUT:
+        main = _saturated(ideal, found.beside)
+        if main is not None:
+            prime = found.prime and main.certainty == "proven"
+            component = Component(main, prime, dimension, purity)
+            return prune((component, *_smaller(system, ideal, component, found.beside)))
+    primes = _by_engine(ideal) if found.prime else ()
+    return primes or (Component(ideal, False, dimension),)
+
+
+def _smaller(system: _System, ideal: Ideal, main: Component, beside: Polynomial) -> Iterator[Component]:
+    """Pieces that hold the zeros of an ideal outside its main part, all of them zeros of `beside`."""
+    # where the main part has the least dimension, what is smaller lies in other branches
+    outside = [g for g in main.generators if not ideal.contains(g)] if main.dimension > system.least else []
+    for g in outside:
+        rest = _saturated(ideal, g)
+        apart = system.plus(beside) if rest is None else system.replaced(rest.generators, same_ideal=False)
+        for piece in _refine(apart):
+            yield _in_ring(piece, system.ring)
+        if rest is None:
+            return
+
+
+def _saturated(ideal: Ideal, polynomial: Polynomial) -> Ideal | None:
+    """The ideal of the zeros outside those of a polynomial; None where it is not found soon."""
+    try:
+        with current().part(_PROOF_SECONDS):
+            return ideal.saturate(polynomial)
+    except Undecided:
+        current().check("decomposition")
+        return None
 
 
 def _analysed(ideal: Ideal, unmixed: bool) -> Splitting:
     try:
         with current().part(_PROOF_SECONDS):
-            return analyse(ideal, unmixed=unmixed)
+            return analyse(ideal, macaulay=unmixed)
     except Undecided:
         current().check("decomposition")
-        return Splitting()
+        # what was known before is no less true
+        return Splitting(beside=ideal.ring.one, macaulay=True) if unmixed else Splitting()
 
 
 def _by_engine(ideal: Ideal) -> tuple[Component, ...]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations_with_replacement
 
 from flint import fmpq, fmpq_mat, fmpq_poly, fmpz_mat, nmod_mat
@@ -17,7 +17,7 @@ from singsym.elimination.budget import current
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.real.quotient import Algebra, quotient_algebra, standard_monomials
-from singsym.varieties.torsion import NormalForms, presentation, torsion_support
+from singsym.varieties.torsion import NormalForms, off_free, presentation, torsion_support
 
 Exponents = tuple[int, ...]
 _LARGEST_FIBRE = 120
@@ -26,16 +26,18 @@ _LARGEST_SEARCH = 330
 
 @dataclass(frozen=True)
 class Splitting:
-    """What was found: V(I) is the union of the V(I + factor), or I is prime, or (neither) nothing.
+    """What was found: V(I) is the union of the V(I + factor), or the following is known of I, or nothing.
 
-    `prime` with `complete` False says that V(I) has one component of full dimension, and maybe smaller ones;
-    these then lie in V(cut), which does not contain the component, where `cut` is not None.
+    prime: V(I) has one component of full dimension over Q, and I is radical along it.
+    beside: a polynomial that vanishes on no component of full dimension, but on all smaller and on all
+    embedded ones; 1 where there are none: then I is unmixed, and prime where `prime`.
+    macaulay: I : beside^oo is Cohen-Macaulay; otherwise it is unmixed.
     """
 
     factors: tuple[Polynomial, ...] = ()
     prime: bool = False
-    complete: bool = False
-    cut: Polynomial | None = None
+    beside: Polynomial | None = None
+    macaulay: bool = False
 
 
 def leading_exponents(basis: Sequence[Polynomial]) -> list[Exponents]:
@@ -132,39 +134,47 @@ def coordinates(ideal: Ideal, rng: random.Random) -> Iterator[Coordinates]:
         yield Coordinates(turned, changed, len(last), ring, images)
 
 
-def analyse(ideal: Ideal, *, unmixed: bool = False, seed: int = 0) -> Splitting:
-    """Prove an ideal prime over Q, or split its variety, or find nothing.
+def analyse(ideal: Ideal, *, macaulay: bool = False, seed: int = 0) -> Splitting:
+    """Prove an ideal prime over Q, or split its variety, or find what is beside its main part, or nothing.
 
-    unmixed: whether all components are known to have the dimension of the ideal.
+    macaulay: whether the ideal is known to be Cohen-Macaulay.
 
-    >>> x, y = Ring(("x", "y")).gens
-    >>> analyse(Ideal(x.ring, (x**2 - 2, y**2 - 2))).factors
+    >>> x, y, z = Ring(("x", "y", "z")).gens
+    >>> analyse(Ideal(x.ring, (x**2 - 2, y**2 - 2, z))).factors
     (x - y, x^2 - 2*x*y + y^2 - 8)
-    >>> analyse(Ideal(x.ring, (x**2 - 2, y**2 - 3))).prime
+    >>> analyse(Ideal(x.ring, (x**2 - 2, y**2 - 3, z))).prime
     True
+    >>> analyse(Ideal(x.ring, (x * z, y * z))).beside is None
+    False
     """
     rng = random.Random(seed)
-    best = Splitting()
+    best = Splitting(beside=ideal.ring.one, macaulay=True) if macaulay else Splitting()
     for place in coordinates(ideal, rng):
         current().check("decomposition")
         found = _at_fibre(place, rng)
         if found.factors:
             return Splitting(tuple(place.back(f).primitive() for f in found.factors))
-        if found.prime:
-            if unmixed or place.is_free:
-                return Splitting(prime=True, complete=True)
-            best = Splitting(prime=True)
-            cut = _cut(place, rng) if place.dimension == 1 else None
-            if cut is not None:
-                return Splitting(prime=True, complete=cut.is_constant, cut=cut)
-    return best
+        best = replace(best, prime=best.prime or found.prime)
+        if best.beside is None and place.is_finite:
+            best = replace(best, beside=_beside(place, rng), macaulay=place.is_free or place.dimension == 1)
+        if best.prime and best.beside is not None:
+            return best
     return best
 
 
-def _cut(place: Coordinates, rng: random.Random) -> Polynomial | None:
-    """A polynomial that vanishes on the points beside the curve; 1 where there are none."""
-    leads = [m[:-1] for m in leading_exponents(place.basis) if not m[-1]]
-    module = presentation(place.ring, place.basis, standard_monomials(leads, place.split))
+def _beside(place: Coordinates, rng: random.Random) -> Polynomial | None:
+    """A polynomial in u that vanishes where the finite module Q[x]/I over Q[u] has torsion; 1 without any.
+
+    Off its zeros the module is torsion-free, so that I is unmixed there; along a curve it is free.
+    """
+    if place.is_free:
+        return place.original.one
+    leads = [m[: place.split] for m in leading_exponents(place.basis) if not any(m[place.split :])]
+    within = standard_monomials(leads, place.split)
+    if place.dimension > 1:
+        found = off_free(place.ring, place.basis, within)
+        return None if found is None else place.back(found)
+    module = presentation(place.ring, place.basis, within)
     if module is None:
         return None
     product = place.ring.one
@@ -178,7 +188,9 @@ def _at_fibre(place: Coordinates, rng: random.Random) -> Splitting:
 
     Lemma: if Q[x]/I is finite over Q[u], u is independent modulo I and the algebra of one fibre is a field
     Q(l), then near u0 the module is generated by powers of l (Nakayama) and is Q[u][l]/(m), m irreducible
-    as it is so at u0: one component dominates u-space, and it is reduced there.
+    as it is so at u0: one component dominates u-space, and it is reduced there.  Where Q[x]/I is finite over
+    Q[u], u is independent (as many variables as the dimension), and all components of full dimension
+    dominate u-space.
     """
     ring = place.ring
     inner = ring.with_names(ring.names[: place.split])

@@ -1,7 +1,7 @@
-"""Whether a curve's ideal has isolated or embedded points beside the curve, and over which values they lie.
+"""Whether an ideal has smaller or embedded components beside its main part, and over which values they lie.
 
 Source: presentation of Q[x]/I as a module over Q[u] by its standard monomials (Cox, Little, O'Shea, "Using
-Algebraic Geometry", ch. 5); over the principal ideal domain Q[u], torsion-free means free.
+Algebraic Geometry", ch. 5); over the principal ideal domain Q[u] of a curve, torsion-free means free.
 """
 
 from __future__ import annotations
@@ -14,11 +14,13 @@ from flint import fmpq, fmpq_mat, fmpz_mpoly_vec, nmod_mat, nmod_poly
 
 from singsym.elimination.budget import current
 from singsym.elimination.engines.division import remainder
-from singsym.polynomials import Polynomial, Ring
+from singsym.minors.determinant import TooManyTerms, block_determinants
+from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
 
 Exponents = tuple[int, ...]
 _PRIME = 2305843009213693951
 _LARGEST = 80
+_LARGEST_DETERMINANT, _MOST_TERMS = 40, 20_000
 
 
 class NormalForms:
@@ -90,6 +92,49 @@ def presentation(ring: Ring, basis: Sequence[Polynomial], within: Sequence[Expon
         action.append(tuple(row))
         rest.append(outside)
     return Presentation(tuple(action), tuple(rest))
+
+
+def off_free(ring: Ring, basis: Sequence[Polynomial], within: Sequence[Exponents]) -> Polynomial | None:
+    """A polynomial in the last variables u off whose zeros Q[x]/I is a free module over Q[u]; None if large.
+
+    within: the exponents in the other variables of all standard monomials; their x^a span the module.
+    Lemma: take one relation u^b x^a = its normal form for each a for which a multiple u^b x^a is not
+    standard.  Its leading term is u^b x^a, and these x^a are all different; so the determinant of the
+    relations in these x^a has the product of the u^b as leading term: it is not zero.  Where it is
+    invertible, the relations give these x^a by the others, and the others are independent over Q[u], as all
+    their multiples by powers of u are standard.
+
+    >>> x, u, v = Ring(("x", "u", "v")).gens
+    >>> off_free(x.ring, (x**2, x * u, x * v), [(0,), (1,)])
+    v
+    """
+    size = len(within[0])
+    leads = [p.terms()[0][0] for p in basis]
+    corners: dict[Exponents, Exponents] = {}
+    for a in within:
+        tops = [m[size:] for m in leads if all(i >= j for i, j in zip(a, m[:size], strict=True))]
+        if tops:
+            corners[a] = min(tops, key=lambda b: (sum(b), b))
+    if len(corners) > _LARGEST_DETERMINANT:
+        return None
+    forms, place = NormalForms(ring, basis), {a: i for i, a in enumerate(corners)}
+    rows = []
+    for a, b in corners.items():
+        current().check("torsion")
+        row = [ring.zero] * len(place)
+        monomial = ring.from_dict({(*a, *b): 1})
+        for m, c in (monomial - forms.reduce(monomial)).terms():
+            if (k := place.get(m[:size])) is not None:
+                row[k] += ring.from_dict({(*(0,) * size, *m[size:]): c})
+        rows.append(row)
+    try:
+        factors = block_determinants(PolynomialMatrix.of(ring, rows), _MOST_TERMS)
+    except TooManyTerms:
+        return None
+    product = ring.one
+    for factor in factors:
+        product = product * factor.squarefree_part()
+    return product.squarefree_part()
 
 
 def torsion_support(module: Presentation, rng: random.Random) -> list[list[fmpq]]:

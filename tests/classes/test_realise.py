@@ -41,7 +41,7 @@ def test_a_stratum_below_a_known_dimension_is_left() -> None:
     (left,) = realise(replace(task, known=2)).pieces
     (looked_at,) = realise(replace(task, known=0)).pieces
     assert (seen.dimension, looked_at.dimension) == (1, 1)
-    assert (left.dimension, left.at_most, left.verdict.is_undecided) == (None, 1, True)
+    assert (left.dimension, left.extent.at_most, left.verdict.is_undecided) == (None, 2, True)
 
 
 @pytest.mark.engines
@@ -53,15 +53,15 @@ def test_a_dimension_bounded_modulo_a_prime(monkeypatch: pytest.MonkeyPatch) -> 
         def dimension(self) -> int:
             raise Undecided("takes too long")
 
-    monkeypatch.setattr("singsym.classes.realise.Ideal", Endless)
+    monkeypatch.setattr("singsym.classes.dimension_bounds.Ideal", Endless)
     ring = Ring(("x", "y", "z"))
     x, y, z = ring.gens
     circle = Found((), Stratum((x**2 + y**2 - 1, z - x * y), Defects(0, 0, 0, 0)))
     task = RealTask(circle, RealSystem(ring, ()), Names())
     (bounded,) = realise(replace(task, known=2)).pieces
-    assert (bounded.at_most, bounded.bounded, bounded.dimension) == (2, "modular", None)
+    assert (bounded.extent.at_most, bounded.extent.bounded, bounded.dimension) == (2, "modular", None)
     (seen,) = realise(replace(task, known=0)).pieces
-    assert seen.dimension == 1
+    assert (seen.dimension, seen.extent.bounded) == (1, "modular")
 
 
 def test_a_real_curve_of_complex_surfaces_is_not_counted() -> None:

@@ -4,7 +4,9 @@ import json
 import re
 import subprocess
 import sys
+from pathlib import Path
 
+import mpmath
 import pytest
 
 from singsym.cli import main
@@ -91,6 +93,51 @@ def test_at_a_dead_centre(capsys, tmp_path):
     assert found["types"] == ["RI", "IO"]
     assert main(["at", "slider-crank", "--config", str(path)]) == 0
     assert "class 1 (RI, IO)" in capsys.readouterr().out
+
+
+def arm(tmp_path: Path) -> str:
+    path = tmp_path / "arm.toml"
+    path.write_text(
+        'inputs = ["A", "B"]\noutput = { velocity = "T" }\n[links]\nAB = 1\nBT = 1\n'
+        'ground = { points = { A = [0, 0] } }\n[joints]\nA = "R"\nB = "R"\n'
+    )
+    return str(path)
+
+
+def test_at_a_rank_that_is_unclear(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    """An arm of two equal links bent by 1e-7: more than rounding, less than doubles can tell for sure."""
+    path = tmp_path / "near.toml"
+    path.write_text("[joints]\nA = 0.3\nB = 1e-7\n")
+    arguments = ["at", arm(tmp_path), "--config", str(path)]
+    assert main(arguments) == 3
+    assert "undecided" in capsys.readouterr().out
+    assert main([*arguments, "--format", "json"]) == 3
+    found = json.loads(capsys.readouterr().out)
+    assert "threshold" in found["undecided"]
+    assert found["class"] is None
+    assert main([*arguments, "--tolerance", "1e-12"]) == 0
+
+
+def test_more_digits_go_in_and_come_out(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    """T = (cos A + cos(A + B), ...) with A = 0 and B = 1e-7 to 30 digits: T.x = 1 + cos B."""
+    path = tmp_path / "near.toml"
+    path.write_text("[joints]\nA = 0\nB = 1.00000000000000000000000000001e-7\n")
+    found = data(capsys, "at", arm(tmp_path), "--config", str(path))
+    assert found["types"] == []
+    assert found["undecided"] is None
+    with mpmath.workdps(40):
+        expected = 1 + mpmath.cos(mpmath.mpf("1.00000000000000000000000000001e-7"))
+        assert abs(mpmath.mpf(found["points"]["T"][0]) - expected) < mpmath.mpf(10) ** -28
+
+
+def test_a_configuration_without_an_end_is_refused(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    path = tmp_path / "long.toml"
+    path.write_bytes(b" " * 1_000_001)
+    for name in (str(path), *(["/dev/zero"] if Path("/dev/zero").exists() else [])):
+        assert main(["at", "fourbar", "--config", name]) == 2
+        assert "more than 1000000 bytes" in capsys.readouterr().err
 
 
 def test_new_writes_a_file_once(capsys, tmp_path, monkeypatch):

@@ -134,7 +134,7 @@ def test_a_polynomial_that_is_no_determinant_of_points_gets_no_name() -> None:
     assert names.recognise(x) is None
     found = names.recognise(y)
     assert found is not None
-    assert found.words == "A, B, C collinear"
+    assert found.quantity.words == "A, B, C collinear"
 
 
 def test_four_points_in_a_plane_and_a_link_across_an_axis() -> None:
@@ -147,4 +147,4 @@ def test_four_points_in_a_plane_and_a_link_across_an_axis() -> None:
     for polynomial, words in [(z, "A, B, C, D coplanar"), (x + y, "AD perpendicular to axis u")]:
         found = names.recognise(polynomial)
         assert found is not None
-        assert found.words == words
+        assert found.quantity.words == words

@@ -10,7 +10,7 @@ import pytest
 import sympy
 
 from singsym.kinematics import check_mobility, place, sample_configurations, velocity_equation
-from singsym.kinematics.mobility import numerical_rank
+from singsym.kinematics.numerical_rank import numerical_rank
 from singsym.kinematics.sampling import numerical_matrix
 from singsym.mechanism import load
 from singsym.mechanism.model import Joint, JointKind, JointRate, Link, Mechanism, PointVelocity, Space, Twist
@@ -134,7 +134,7 @@ def test_a_folded_fourbar_is_singular() -> None:
     folded = replace(equation.space, equations=(*equation.space.equations, volume))
     for point in sample_configurations(folded, 3, 1):
         found = [
-            numerical_rank(numerical_matrix(m, point))[0] for m in (equation.L, equation.L_O, equation.L_I)
+            numerical_rank(numerical_matrix(m, point)).rank for m in (equation.L, equation.L_O, equation.L_I)
         ]
         assert found == [4, 3, 4]
 

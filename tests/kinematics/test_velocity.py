@@ -18,7 +18,7 @@ from singsym.kinematics import (
     sample_configurations,
     velocity_equation,
 )
-from singsym.kinematics.mobility import numerical_rank
+from singsym.kinematics.numerical_rank import numerical_rank
 from singsym.kinematics.sampling import numerical_matrix
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism import load
@@ -28,7 +28,7 @@ from tests.kinematics.linkages import crane
 
 def ranks(equation: VelocityEquation, point: np.ndarray) -> list[int]:
     parts = (equation.L, equation.L_I, equation.L_O, equation.L_p)
-    return [numerical_rank(numerical_matrix(part, point))[0] for part in parts]
+    return [numerical_rank(numerical_matrix(part, point)).rank for part in parts]
 
 
 def test_the_matrix_of_the_paper() -> None:

@@ -11,7 +11,7 @@ import pytest
 import sympy
 import yourdfpy
 
-from singsym.mechanism import JointKind, MechanismError, check
+from singsym.mechanism import JointKind, Mechanism, MechanismError, check
 from singsym.mechanism.urdf import from_urdf, rational_rotation
 
 _spec = importlib.util.spec_from_file_location("arms", Path(__file__).with_name("arms.py"))
@@ -78,13 +78,39 @@ def test_limits(tmp_path: Path) -> None:
     # The first joint turns freely, the continuous one has no limits.
     symmetric, slide, offset = arm.limits
     assert symmetric.expression == sympy.Symbol("cos(joint_1)")
-    assert symmetric.low == sympy.Rational(str(round(math.cos(1.5), 6)))
+    assert math.cos(1.5 + 1e-6) <= symmetric.low <= math.cos(1.5)
     assert (slide.low, slide.high) == (sympy.Rational(-1, 2), sympy.Rational(1, 4))
-    # From .5 to 1.5: both ends lie on the bound, the middle well inside.
-    for angle, inside in ((0.5, 0.0), (1.5, 0.0), (1.0, 0.1224), (0.4, -0.0525)):
+    # From .5 to 1.5: the condition changes its sign less than 1e-6 beyond either end.
+    for angle, inside in ((0.5, True), (1.5, True), (1.0, True), (0.5 - 2e-6, False), (1.5 + 2e-6, False)):
         put = {sympy.Symbol("cos(joint_5)"): math.cos(angle), sympy.Symbol("sin(joint_5)"): math.sin(angle)}
-        value = offset.expression.xreplace(put) - offset.low
-        assert float(value) == pytest.approx(inside, abs=1e-3)
+        assert (offset.expression.xreplace(put) >= offset.low) == inside
+    assert "Limits of joint_5: 0.5 is rounded outwards by at most 1e-6" in arm.description
+
+
+def test_limits_that_say_little(tmp_path: Path) -> None:
+    slide = ("prismatic", "0 0 0", "0 0 0", "0 0 1")
+
+    def arm(kind: tuple[str, ...], limit: str) -> Mechanism:
+        return from_urdf(write(tmp_path / "arm.urdf", [(*kind, limit)]), components=["vz"])
+
+    turning = ("revolute", *slide[1:])
+    # Exporters write 0 and 0 where no limit was set.
+    for kind in (slide, turning):
+        unset = arm(kind, "0 0")
+        assert unset.limits == ()
+        assert "Limits of joint_0: left out, as both are 0." in unset.description
+        with pytest.raises(MechanismError, match="the lower limit first"):
+            arm(kind, "1 0.5")
+    assert arm(turning, "-3.5 3.5").limits == arm(turning, "0 inf").limits == ()
+    assert arm(turning, "-3.1416 3.1416").limits == ()
+    (half,) = arm(slide, "0 inf").limits
+    assert (half.low, half.high) == (0, None)
+    # A limit that is not given is 0, as the specification has it.
+    file = write(tmp_path / "arm.urdf", [(*turning, "1 2.5")])
+    file.write_text(file.read_text(encoding="utf-8").replace('lower="1.0"', "").replace('lower="1"', ""))
+    (bound,) = from_urdf(file, components=["wz"]).limits
+    put = {sympy.Symbol("cos(joint_0)"): 1, sympy.Symbol("sin(joint_0)"): 0}
+    assert bound.expression.xreplace(put) == bound.low
 
 
 def test_refused(tmp_path: Path) -> None:
@@ -124,3 +150,29 @@ def test_without_yourdfpy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> No
     monkeypatch.setitem(sys.modules, "yourdfpy", None)
     with pytest.raises(ImportError, match=r"singsym\[urdf\]"):
         from_urdf(tmp_path / "arm.urdf")
+
+
+def test_what_a_file_lacks_is_said_in_a_sentence(tmp_path: Path) -> None:
+    unnamed = Path(__file__).parent.parent / "cases" / "no-robot-name.urdf"
+    assert from_urdf(unnamed, components=["wz"]).name == "no-robot-name"
+    path = tmp_path / "arm.urdf"
+    link, joint = '<link name="a"/><link name="b"/>', '<parent link="a"/><child link="b"/>'
+    for text, found in (
+        ("", "no XML"),
+        ("<robot", "line 1"),
+        ("<sdf/>", "<sdf>"),
+        (f"<robot>{link}<joint type='revolute'>{joint}</joint></robot>", "KeyError: 'name'"),
+        (f"<robot>{link}<joint name='j' type='revolute'/></robot>", "AttributeError"),
+        (f"<!DOCTYPE r [<!ENTITY x '{link}'>]><robot>&x;</robot>", "0 last links"),
+    ):
+        path.write_text(text, encoding="utf-8")
+        with pytest.raises(MechanismError, match=found):
+            from_urdf(path)
+    # Names with undeclared prefixes, and meshes that are not there, are passed over.
+    visual = "<visual><geometry><mesh/></geometry></visual>"
+    path.write_text(
+        f"<robot name='r'><link name='a'>{visual}</link><link name='b'/><gz:plugin/>"
+        f"<joint name='j' type='revolute'>{joint}</joint></robot>",
+        encoding="utf-8",
+    )
+    assert from_urdf(path, components=["wz"]).name == "r"

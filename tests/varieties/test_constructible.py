@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from singsym.elimination import engines
 from singsym.elimination.budget import Budget
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.verdict import Answer
@@ -194,3 +195,19 @@ def test_display_and_pickling() -> None:
     assert repr(ConstructibleSet(R)) == "{}"
     assert pickle.loads(pickle.dumps(shape)) == shape
     assert len({shape, zeros(x * y) - zeros(x)}) == 1
+
+
+@pytest.mark.engines
+def test_emptiness_modulo_primes_is_not_called_proven() -> None:
+    """Five general equations in four unknowns have no solution; msolve alone says so modulo a prime only."""
+    ring = Ring(("x", "y", "z", "t"))
+    x, y, z, t = ring.gens
+    first = (x**3 * y - z**2 + 7 * t, y**3 + x * z * t - 5, z**3 - x * y + t**2 - 1)
+    second = (t**3 * x - y * z + 11, x**2 + y**2 + z**2 - 3 * t * x - 2)
+    nothing = ConstructibleSet.zeros(ring, *first, *second)
+    with engines.use("msolve"):
+        verdict = nothing.is_empty()
+        kept = nothing.tidy()
+    assert verdict.is_yes
+    assert verdict.certainty == "modular"
+    assert [cell.undecided for cell in kept.cells] == ["it is empty modulo random primes"]

@@ -12,7 +12,7 @@ from singsym.elimination.budget import Budget, BudgetExceeded
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.memo import forget
 from singsym.polynomials import AlgebraicConstant, Polynomial, Ring
-from singsym.varieties.decomposition import Component, decompose
+from singsym.varieties.decomposition import decompose
 
 R = Ring(("x", "y", "z"))
 x, y, z = R.gens
@@ -107,13 +107,6 @@ def test_nonzero_drops_whole_components_only() -> None:
     assert zeros(x * y, nonzero=(x,)) == bases((y,))
     assert zeros(x * y * (z - 1), x * z, nonzero=(x, y)) == set()
     assert zeros(x**2 + y**2 - 1, nonzero=(x - 1,)) == bases((x**2 + y**2 - 1,))
-
-
-def test_keep_drops_components() -> None:
-    def outside(c: Component) -> bool:
-        return "x" not in c.ideal.ring.names or not c.vanishes(c.ideal.ring.gen("x"))
-
-    assert [c.generators for c in decompose([x * y], ring=R, keep=outside)] == [(y,)]
 
 
 def test_progress_and_budget() -> None:

@@ -3,6 +3,8 @@
 They are critical points of H^2 / q^k, q a random sum of squares and H zero on the border of the part; with
 H = 1 those of a distance.  Lemma: with deg q^k > deg H^2 the function tends to 0 at infinity and at the
 border, so that it has a maximum on every connected component of H != 0; random q have finitely many (Sard).
+A maximum is critical where the set is a manifold given by independent gradients: hence only a `PurePiece`
+will do, of which no part of a smaller dimension is overlooked.
 Source: Rouillier, Roy, Safey El Din, J. Complexity 16 (2000) 716-750; Aubry, Rouillier, Safey El Din,
 J. Symb. Comput. 34 (2002) 543-560 (recursion on the singular locus); Harris, Hauenstein, Szanto, Smooth
 points on semi-algebraic sets, J. Symb. Comput. 116 (2023) 183-212.
@@ -22,6 +24,7 @@ from singsym.elimination.verdict import noted_if_true
 from singsym.minors.determinant import minors
 from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
 from singsym.varieties.decomposition import Component, decompose
+from singsym.varieties.purity import PurePiece, pure_or_whole
 from singsym.varieties.real.intervals import jacobian
 from singsym.varieties.real.points import RealPoint
 from singsym.varieties.real.zerodim import NotZeroDimensional, pinned, real_points
@@ -42,7 +45,7 @@ def sample_points(
     """At least one real point on every connected component of the real zero set; none proves it empty.
 
     nonzero: polynomials whose zeros are removed before components are counted.
-    Raises `Undecided` (pieces not known to be reduced and of one dimension, no time left).
+    Raises `Undecided` (pieces not proven to be reduced and of one dimension, no time left).
 
     >>> R = Ring(("x", "y"))
     >>> x, y = R.gens
@@ -54,7 +57,8 @@ def sample_points(
     system = [f for f in (*equations, *ring.relations) if not f.is_zero]
     found: list[RealPoint] = []
     with current(budget).part() as limited:
-        for component in decompose(system, nonzero, ring=ring, budget=limited):
+        pieces = decompose(system, nonzero, ring=ring, budget=limited)
+        for component in pure_or_whole(pieces, system, ring):
             found.extend(component_samples(component, system, limited, nonzero=nonzero))
     return tuple(dict.fromkeys(found))
 
@@ -66,11 +70,9 @@ def component_samples(
     *,
     nonzero: Sequence[Polynomial] = (),
 ) -> tuple[RealPoint, ...]:
-    """The same for one piece of V(equations), without what other pieces of that set have as well.
+    """The same for one piece; raises `Undecided` where it is not proven to have one dimension.
 
-    The piece must be known to have one dimension; or the equations to be as many as its codimension: by
-    Krull's height theorem V(equations) then has no smaller irreducible component, and what is lower in this
-    piece belongs to other ones.
+    equations: some that vanish on it, which may be simpler than its generators; others are not used.
     """
     budget = current(budget)
     budget.check("real points on every component")
@@ -79,20 +81,21 @@ def component_samples(
         return ()
     if dimension == 0:
         return _pinned(real_points(component.ideal, budget), nonzero)
-    codimension = len(ring.names) - dimension
-    if codimension == 0 and not nonzero:
+    piece = PurePiece.of(component)
+    if not piece.codimension and not nonzero:
         return (_origin(ring),)
+    known = _holding(component, equations)
     # finitely many critical and singular points together: then the piece is reduced and nothing is left
-    chosen = next(_choices(component, equations, codimension))
+    chosen = next(_choices(piece, known))
     try:
-        return _critical_points(component, equations, chosen, nonzero, Random(5), budget)
+        return _critical_points(piece, known, chosen, nonzero, Random(5), budget)
     except NotZeroDimensional:
-        found, singular = regular_samples(component, equations, budget, nonzero=nonzero)
+        found, singular = regular_samples(piece, known, budget, nonzero=nonzero)
     return (*found, *sample_points(ring, singular.generators, budget, nonzero=nonzero))
 
 
 def regular_samples(
-    component: Component,
+    piece: PurePiece,
     equations: Sequence[Polynomial] = (),
     budget: Budget | None = None,
     *,
@@ -100,77 +103,79 @@ def regular_samples(
 ) -> tuple[tuple[RealPoint, ...], Ideal]:
     """A point on every connected component of the part where some gradients are independent; and the rest.
 
-    The piece is as in `component_samples`.  The rest is an ideal of the piece's other points.  Where the
-    first part has no real point, the real piece has a smaller dimension than `component.dimension`.
+    The rest is an ideal of the piece's other points.  Where the first part has no real point, the real piece
+    has a smaller dimension than the complex one.  equations: as in `component_samples`.
 
     >>> R = Ring(("x", "y"))
     >>> x, y = R.gens
-    >>> [len(regular_samples(c)[0]) for c in decompose([x**2 + y**2], ring=R)]
+    >>> [len(regular_samples(PurePiece.of(c))[0]) for c in decompose([x**2 + y**2], ring=R)]
     [0]
     """
     budget = current(budget)
-    ring = component.ideal.ring
-    chosen, border, singular = _regular_part(component, equations, budget)
+    known = _holding(piece.component, equations)
+    chosen, border, singular = _regular_part(piece, known, budget)
     random = Random(5)
     for _ in range(_CENTRES):
         try:
             outside = (*nonzero, *border)
-            return _critical_points(component, equations, chosen, outside, random, budget), singular
+            return _critical_points(piece, known, chosen, outside, random, budget), singular
         except NotZeroDimensional:
             continue
-    raise Undecided(f"the critical points on {component!r} are not finite for {_CENTRES} centres in {ring!r}")
+    what = f"the critical points on {piece.component!r} are not finite"
+    raise Undecided(f"{what} for {_CENTRES} centres in {piece.ring!r}")
 
 
 def _origin(ring: Ring) -> RealPoint:
     return RealPoint(ring, (0, 1), (1,), ((),) * len(ring.names), Fraction(0), Fraction(0))
 
 
+def _holding(component: Component, equations: Sequence[Polynomial]) -> tuple[Polynomial, ...]:
+    """Those of the equations that are not zero and vanish on the whole piece."""
+    return tuple(f for f in equations if not f.is_zero and component.vanishes(f))
+
+
 def _regular_part(
-    component: Component, equations: Sequence[Polynomial], budget: Budget
+    piece: PurePiece, known: tuple[Polynomial, ...], budget: Budget
 ) -> tuple[tuple[Polynomial, ...], tuple[Polynomial, ...], Ideal]:
-    """As many elements of the ideal as its codimension, and where their gradients are dependent.
+    """As many polynomials zero on the piece as its codimension, and where their gradients are dependent.
 
     Between the two: a polynomial that vanishes there, and not on a whole component of the piece, if needed.
-    Outside of its zeros the piece is a manifold, given by the elements, and all of its regular points have
+    Outside of its zeros the piece is a manifold, given by the polynomials, and all of its regular points have
     such points near them.
     """
-    ring, codimension = component.ideal.ring, len(component.ideal.ring.names) - component.dimension
-    if not codimension:
+    ring, ideal = piece.ring, piece.ideal
+    if not piece.codimension:
         return (), (), Ideal(ring, (ring.one,))
-    known = component.prime or component.cohen_macaulay
-    if not known and codimension not in (len(component.generators), len(equations)):
-        raise Undecided(f"{component!r} is not known to have one dimension only")
-    for chosen in _choices(component, equations, codimension):
+    for chosen in _choices(piece, known):
         budget.check("real points on every component")
         matrix = PolynomialMatrix.of(ring, jacobian(chosen, ring.names))
-        found = [m for minor in _all_minors(matrix, codimension) if (m := component.ideal.reduce(minor))]
+        found = [m for minor in _all_minors(matrix, piece.codimension) if (m := ideal.reduce(minor))]
         if not found:
             continue
-        singular = component.ideal + Ideal(ring, found)
+        singular = ideal + Ideal(ring, found)
         if singular.is_unit():
             return chosen, (), singular
         for minor in sorted((m.squarefree_part() for m in found), key=lambda m: (m.total_degree, len(m))):
             # on a prime every minor that is not in the ideal cuts the dimension down
-            if component.prime or (component.ideal + Ideal(ring, (minor,))).dimension < component.dimension:
+            if piece.component.prime or (ideal + Ideal(ring, (minor,))).dimension < piece.dimension:
                 return chosen, (minor,), singular
-    raise Undecided(f"no reduced generators were found for {component!r}")
+    raise Undecided(f"no reduced generators were found for {piece.component!r}")
 
 
-def _choices(
-    component: Component, equations: Sequence[Polynomial], codimension: int
-) -> Iterator[tuple[Polynomial, ...]]:
-    known = tuple(f for f in equations if not f.is_zero)
+def _choices(piece: PurePiece, known: tuple[Polynomial, ...]) -> Iterator[tuple[Polynomial, ...]]:
+    codimension = piece.codimension
     if len(known) == codimension:
         yield known
-    generators = sorted(component.generators, key=lambda f: (f.total_degree, len(f)))
+    generators = sorted(piece.ideal.generators, key=lambda f: (f.total_degree, len(f)))
     if len(generators) == codimension:
         yield tuple(generators)
         return
     random = Random(2)
-    yield _independent(generators, codimension, random)
+    if len(independent := _independent(generators, codimension, random)) == codimension:
+        yield independent
     for _ in range(3):
         yield tuple(
-            sum((g * random.randint(-3, 3) for g in generators), start=component.ideal.ring.zero)
+            sum((g * random.randint(-3, 3) for g in generators), start=piece.ring.zero)
             for _ in range(codimension)
         )
 
@@ -205,8 +210,8 @@ def _modulo(polynomial: Polynomial, point: Sequence[int], prime: int) -> int:
 
 
 def _critical_points(
-    component: Component,
-    equations: Sequence[Polynomial],
+    piece: PurePiece,
+    known: tuple[Polynomial, ...],
     local: Sequence[Polynomial],
     nonzero: Sequence[Polynomial],
     random: Random,
@@ -217,17 +222,17 @@ def _critical_points(
     Raises `NotZeroDimensional` where they are infinitely many.
     """
     budget.check("critical points")
-    ring = component.ideal.ring
-    border = prod((component.ideal.reduce(p) for p in nonzero), start=ring.one)
+    ring = piece.ring
+    border = prod((piece.ideal.reduce(p) for p in nonzero), start=ring.one)
     if border.is_zero:
         return ()
     border = border.squarefree_part()
-    piece = _few_equations(component, equations)
+    equations = _few_equations(piece, known)
     if border.is_constant:
-        system = (*piece, *_dependences(component, local, ring.one, random))
+        system = (*equations, *_dependences(piece, local, ring.one, random))
         return _pinned(real_points(Ideal(ring, system), budget))
     wide = ring.with_names((*ring.names, "1/border"))
-    system = (*piece, *_dependences(component, local, border, random))
+    system = (*equations, *_dependences(piece, local, border, random))
     outside = wide.gens[-1] * wide.convert(border) - 1
     points = real_points(Ideal(wide, (*map(wide.convert, system), outside)), budget)
     return _pinned([dropped(p, ring) for p in points])
@@ -242,13 +247,11 @@ def _all_minors(matrix: PolynomialMatrix, size: int) -> list[Polynomial]:
     return [minor for _, _, minor in minors(matrix, size)]
 
 
-def _few_equations(component: Component, equations: Sequence[Polynomial]) -> tuple[Polynomial, ...]:
+def _few_equations(piece: PurePiece, known: tuple[Polynomial, ...]) -> tuple[Polynomial, ...]:
     """A few equations of the piece in place of a long Groebner basis, where some are quickly seen to do."""
-    generators = component.generators
-    known = tuple(f for f in equations if not f.is_zero)
+    generators = piece.ideal.generators
     shortest = sorted(generators, key=lambda f: (f.total_degree, len(f)))
-    codimension = len(component.ideal.ring.names) - component.dimension
-    for chosen in (known, tuple(shortest[: 2 * codimension])):
+    for chosen in (known, tuple(shortest[: 2 * piece.codimension])):
         if not 0 < 2 * len(chosen) < len(generators):
             continue
         try:
@@ -265,10 +268,10 @@ def _generate(chosen: Sequence[Polynomial], others: Sequence[Polynomial]) -> boo
 
 
 def _dependences(
-    component: Component, local: Sequence[Polynomial], border: Polynomial, random: Random
+    piece: PurePiece, local: Sequence[Polynomial], border: Polynomial, random: Random
 ) -> tuple[Polynomial, ...]:
     """Where the gradients of `local` and of 2 log H - k log q, times H q, are dependent."""
-    ring = component.ideal.ring
+    ring = piece.ring
     centre = [ring.constant(random.randint(-40, 40)) / random.randint(7, 13) for _ in ring.names]
     offsets = [x - a for x, a in zip(ring.gens, centre, strict=True)]
     if border.is_constant:
@@ -279,7 +282,7 @@ def _dependences(
         direction = [2 * q * border.derivative(n) - k * border * q.derivative(n) for n in ring.names]
     rows = [*jacobian(local, ring.names), direction]
     found = _all_minors(PolynomialMatrix.of(ring, rows), len(local) + 1)
-    return tuple(map(component.ideal.reduce, found))
+    return tuple(map(piece.ideal.reduce, found))
 
 
 def _pinned(points: Sequence[RealPoint], nonzero: Sequence[Polynomial] = ()) -> tuple[RealPoint, ...]:

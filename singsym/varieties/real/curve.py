@@ -7,7 +7,7 @@ Source: critical points meet every component (curve_critical.py); proven tubes j
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import networkx as nx
 import numpy as np
@@ -15,7 +15,7 @@ import numpy as np
 from singsym.elimination.budget import Budget, Undecided, current
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.progress import Sink, report, to
-from singsym.elimination.verdict import Certainty, Verdict
+from singsym.elimination.verdict import Verdict, certainties, weakest
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.real.curve_arithmetic import Array, System
 from singsym.varieties.real.curve_assembly import Assembly, assemble, count_without, extended
@@ -57,8 +57,8 @@ class RealCurve:
     components: the connected components other than isolated points, in no particular order.
     graph: a networkx multigraph: nodes are singular points, ends at infinity and one for each smooth loop;
     an edge is an arc, with attributes `polyline` and `component`.
-    verdict: yes ("certified") if the topology is proven; else undecided with the reason, and what is there
-    is a drawing only.
+    verdict: yes ("certified") if the topology is proven, "modular" where that no critical point is missing
+    rests on random primes; else undecided with the reason, and what is there is a drawing only.
     """
 
     ring: Ring
@@ -86,12 +86,18 @@ class RealCurve:
         >>> x, y = Ring(("x", "y")).gens
         >>> real_curve([x**2 + y**2 - 1]).without(x, x - 2)
         2
+        >>> real_curve([(x**2 + y**2 - 1) * (x - 5), (x**2 + y**2 - 1) * y]).without(x - 5)
+        1
         """
         if self._proof is None:
             raise Undecided(f"the topology of the curve is {self.verdict}")
-        removed = [p for e in exclusions for p in real_points((*self._proof.equations, e), budget)]
+        isolated = [p for p in self.isolated_points if all(map(p.sign, exclusions))]
+        equations = self._proof.equations
+        if not equations:
+            return len(isolated)
+        removed = [p for e in exclusions for p in real_points((*equations, e), budget)]
         proof = extended(self._proof, removed, current(budget))
-        return count_without(proof, removed, self.isolated_points)
+        return count_without(proof, removed, isolated)
 
     def __repr__(self) -> str:
         if self.verdict.is_undecided:
@@ -126,11 +132,13 @@ def real_curve(
         raise ValueError("a curve is expected, not the whole space: no equations were given")
     ring: Ring = generators[0].ring
     budget = current(budget)
-    with to(progress):
+    with to(progress), certainties() as seen:
         try:
-            return _solved(ring, generators, budget, seed, drawing)
+            found = _solved(ring, generators, budget, seed, drawing)
         except Undecided as reason:
             return _undecided(ring, str(reason))
+    verdict = replace(found.verdict, certainty=weakest(found.verdict.certainty, *seen))
+    return replace(found, verdict=verdict)
 
 
 def _solved(
@@ -183,8 +191,7 @@ def _result(ring: Ring, proof: Assembly, choice: CurveEquations, drawing: bool) 
             data["component"] = number
         lines = tuple(data["polyline"] for *_, data in arcs)
         components.append(CurveComponent(names, not ends, ends, points, lines))
-    certainty: Certainty = "modular" if choice.certainty == "modular" else "certified"
-    verdict = Verdict.yes(certainty, reason="every arc is covered by proven tubes")
+    verdict = Verdict.yes("certified", reason="every arc is covered by proven tubes")
     if drawing:
         verdict = Verdict.undecided("drawn only: the arcs were tracked, but not proven")
     singular = tuple(s.point for s in proof.stars)

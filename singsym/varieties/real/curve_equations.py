@@ -12,7 +12,6 @@ from functools import reduce as fold
 
 from singsym.elimination.budget import Budget, Undecided
 from singsym.elimination.ideal import Ideal
-from singsym.elimination.verdict import Certainty
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.decomposition import Component, decompose
 from singsym.varieties.real.points import RealPoint
@@ -25,7 +24,6 @@ class CurveEquations:
 
     equations: tuple[Polynomial, ...]
     points: tuple[RealPoint, ...] = ()
-    certainty: Certainty = "proven"
 
 
 def candidates(ring: Ring, generators: tuple[Polynomial, ...], budget: Budget) -> Iterator[CurveEquations]:
@@ -58,14 +56,13 @@ def candidates(ring: Ring, generators: tuple[Polynomial, ...], budget: Budget) -
     if dimension != 1:
         _refuse(dimension, 0)
     curves = [p for p in pieces if p.dimension == 1]
-    if any(not (p.prime or p.cohen_macaulay) for p in curves):
-        raise Undecided("a component of the curve is not proven prime: it may hide isolated points")
+    if not all(p.is_pure for p in curves):
+        raise Undecided("a part of the curve is not proven to have one dimension: it may hide points")
     points = _isolated(pieces, curves, budget)
-    certainty: Certainty = "modular" if any(p.ideal.certainty == "modular" for p in pieces) else "proven"
     if len(equations) > size - 1 and not points:
-        yield CurveEquations(equations, (), certainty)
+        yield CurveEquations(equations)
     union = fold(lambda a, b: a.intersect(b, budget), (p.ideal for p in curves))
-    yield CurveEquations(union.groebner_basis(budget), points, certainty)
+    yield CurveEquations(union.groebner_basis(budget), points)
 
 
 class NotACurve(ValueError):

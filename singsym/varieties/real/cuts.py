@@ -34,9 +34,9 @@ TRIES = 40
 
 @dataclass(frozen=True)
 class Cut:
-    """The complex dimension of a set, -1 when empty, and a real point where it has it, if one was found.
+    """A bound of a set's complex dimension, -1 when empty, and a real point where it is reached, if found.
 
-    certainty: how the dimension is known.
+    certainty: how the bound is known, which is the dimension where there is a point.
     """
 
     dimension: int
@@ -45,7 +45,7 @@ class Cut:
 
 
 def dimension_by_cuts(system: RealSystem) -> Cut:
-    """The dimension of a system's solutions off its exclusions; raises `Undecided` out of budget.
+    """The dimension of a system's solutions off its exclusions, as a `Cut`; raises `Undecided` out of budget.
 
     >>> R = Ring(("x", "y", "z"))
     >>> x, y, z = R.gens

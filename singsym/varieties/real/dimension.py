@@ -9,9 +9,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from singsym.elimination.budget import Budget, Undecided, current
-from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Polynomial
 from singsym.varieties.decomposition import Component, decompose
+from singsym.varieties.purity import PurePiece, pure_or_whole
 from singsym.varieties.real.box import BoxPoint
 from singsym.varieties.real.critical import regular_samples
 from singsym.varieties.real.emptiness import border_polynomials, is_empty_over_reals, is_excluded
@@ -22,24 +22,23 @@ from singsym.varieties.real.witness import RealSystem, Witness, find_witness
 _RANK_BITS = (64, 256)
 
 
-def local_dimension(point: RealPoint | BoxPoint | Witness, ideal: Ideal) -> int | None:
-    """The real dimension of V(ideal) at a point of it, where it is a certified smooth one; else `None`.
+def local_dimension(point: RealPoint | BoxPoint | Witness, piece: PurePiece) -> int | None:
+    """The real dimension of a piece at a point of it, where it is a certified smooth one; else `None`.
 
-    The ideal's components through the point must all have the ideal's dimension, as those of a prime have:
-    then independent gradients, as many as the codimension, make the set a manifold of that dimension there.
+    Independent gradients, as many as the codimension, make the set a manifold of its dimension there: a
+    smaller component through the point could have as many.
 
     >>> from fractions import Fraction
     >>> from singsym.polynomials import Ring
     >>> from singsym.varieties.real.witness import frozen_points
     >>> R = Ring(("x", "y"))
     >>> x, y = R.gens
-    >>> circle = Ideal(R, (x**2 + y**2 - 1,))
-    >>> local_dimension(frozen_points(R, circle.generators, {"x": Fraction(0)})[0], circle)
+    >>> circle = PurePiece.of(decompose([x**2 + y**2 - 1], ring=R)[0])
+    >>> local_dimension(frozen_points(R, circle.ideal.generators, {"x": Fraction(0)})[0], circle)
     1
     """
     place = point.point if isinstance(point, Witness) else point
-    codimension = len(ideal.ring.names) - ideal.dimension
-    return ideal.dimension if has_rank(ideal.generators, place, codimension) else None
+    return piece.dimension if has_rank(piece.ideal.generators, place, piece.codimension) else None
 
 
 def independent(equations: Sequence[Polynomial], point: RealPoint | BoxPoint) -> bool:
@@ -92,7 +91,8 @@ def real_dimension(
 
 def _real_dimension(system: RealSystem, budget: Budget, seed: int) -> tuple[int, Witness | None]:
     best: tuple[int, Witness | None] = (-1, None)
-    components = decompose(system.closed_equations, system.nonzero, ring=system.ring, budget=budget)
+    pieces = decompose(system.closed_equations, system.nonzero, ring=system.ring, budget=budget)
+    components = pure_or_whole(pieces, system.closed_equations, system.ring)
     for component in sorted(components, key=lambda c: -c.dimension):
         if component.dimension <= best[0]:
             continue
@@ -104,7 +104,9 @@ def _real_dimension(system: RealSystem, budget: Budget, seed: int) -> tuple[int,
 def component_dimension(
     component: Component, system: RealSystem, budget: Budget | None = None, *, seed: int = 0
 ) -> tuple[int, Witness | None]:
-    """The same for one component in place of the system's equations.
+    """The same for one component in place of the system's equations, which are used where they hold on it.
+
+    Raises `Undecided` also where the component is not proven to have one dimension.
 
     >>> from singsym.polynomials import Ring
     >>> R = Ring(("x", "y"))
@@ -119,14 +121,15 @@ def component_dimension(
     piece = replace(system, equations=component.generators)
     if component.dimension == 0:
         return _zero_or_empty(piece, budget, seed)
+    pure = PurePiece.of(component)
     # where the inequalities are strict they are open and do not touch the dimension
     boundaries = tuple(p for p in system.nonnegative if not component.vanishes(p))
     strict = replace(piece, positive=(*system.positive, *boundaries), nonnegative=())
     found = find_witness(strict, seed=seed, tries=8, dimension=component.dimension, budget=budget)
-    if found is not None and local_dimension(found, component.ideal) == component.dimension:
+    if found is not None and local_dimension(found, pure) is not None:
         return component.dimension, found
     borders = tuple(border_polynomials(component, strict))
-    points, singular = regular_samples(component, system.closed_equations, budget, nonzero=borders)
+    points, singular = regular_samples(pure, system.closed_equations, budget, nonzero=borders)
     point = next((p for p in points if strict.admits(p)), None)
     if point is not None:
         return component.dimension, Witness(point)

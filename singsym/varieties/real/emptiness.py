@@ -15,6 +15,7 @@ from singsym.elimination.budget import Budget, Undecided, current
 from singsym.elimination.verdict import Verdict, certainties
 from singsym.polynomials import Polynomial
 from singsym.varieties.decomposition import Component, decompose
+from singsym.varieties.purity import pure_or_whole
 from singsym.varieties.real.consequences import real_consequences
 from singsym.varieties.real.critical import component_samples
 from singsym.varieties.real.points import RealPoint
@@ -56,12 +57,13 @@ def _decided(system: RealSystem, budget: Budget, seed: int, tries: int) -> Verdi
     forced = real_consequences(system, equations)
     if forced is None:
         return Verdict.yes(reason=CONTRADICTED)
-    components = decompose([*equations, *forced], system.nonzero, ring=system.ring, budget=budget)
-    components = tuple(c for c in components if not is_excluded(c, system))
+    equations = (*equations, *forced)
+    pieces = decompose(equations, system.nonzero, ring=system.ring, budget=budget)
+    components = tuple(c for c in pieces if not is_excluded(c, system))
     if not components:
         return Verdict.yes(reason="there is no complex solution")
     reasons, doubts = [], []
-    for component in components:
+    for component in pure_or_whole(components, equations, system.ring):
         try:
             verdict = _component_verdict(component, system, equations, budget, seed, tries)
         except Undecided as doubt:

@@ -75,14 +75,15 @@ def numerical_codimension(system: RealSystem) -> int | None:
     """
     import numpy
 
-    from singsym.varieties.real.search import Compiled, numerical_rank
+    from singsym.kinematics.numerical_rank import numerical_rank
+    from singsym.varieties.real.search import Compiled
 
     points = numerical_points(system, 1)
     if not points:
         return None
     compiled = Compiled(system.closed_equations, system.ring)
     _, slope = compiled(numpy.array(points[0]))
-    return numerical_rank(slope * compiled.sizes)
+    return numerical_rank(slope * compiled.sizes, 1e-7).rank
 
 
 def is_off(

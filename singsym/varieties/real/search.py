@@ -145,14 +145,6 @@ def approach(system: Compiled, starts: Vector, steps: int = 60) -> list[Vector]:
     return [x for x, size in zip(points, sizes, strict=True) if size < _NEAR**2]
 
 
-def numerical_rank(slope: Vector) -> int:
-    """The rank of a matrix up to singular values 1e-7 times the largest; columns in variables over sizes."""
-    if not slope.size:
-        return 0
-    values = np.linalg.svd(slope, compute_uv=False)
-    return int(np.sum(values > 1e-7 * max(1e-300, float(values[0]))))
-
-
 def dependent_columns(slope: Vector, rank: int, first: Sequence[int]) -> list[int]:
     """Columns that the others determine, by pivoted orthogonalisation, those in `first` before others."""
     work = np.array(slope, dtype=np.float64)

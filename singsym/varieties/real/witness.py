@@ -22,7 +22,7 @@ from singsym.varieties.circles import unit_circles
 from singsym.varieties.real.bounds import sign_within
 from singsym.varieties.real.box import BoxPoint, boxed_point
 from singsym.varieties.real.points import RealPoint
-from singsym.varieties.real.zerodim import NotZeroDimensional, real_points
+from singsym.varieties.real.zerodim import NotZeroDimensional, pinned, real_points
 
 if TYPE_CHECKING:
     from singsym.varieties.real.search import Compiled, Vector
@@ -231,13 +231,14 @@ def frozen_values(
 
     A coordinate of a unit vector is held with the other one, at a rational point of the circle.
     """
-    from singsym.varieties.real.search import Compiled, dependent_columns, gauss_newton, numerical_rank
+    from singsym.kinematics.numerical_rank import numerical_rank
+    from singsym.varieties.real.search import Compiled, dependent_columns, gauss_newton
 
     ring = system.ring
     compiled = Compiled(equations, ring)
     _, slope = compiled(sample)
     slope = slope * compiled.sizes
-    rank = numerical_rank(slope) if dimension is None else len(ring.names) - dimension
+    rank = numerical_rank(slope, 1e-7).rank if dimension is None else len(ring.names) - dimension
     dependent = dependent_columns(slope, rank, [ring.index(c.name) for c in ring.constants])
     free = [k for k in range(len(ring.names)) if k not in dependent]
     circles = [pair for pair in unit_circles(equations) if any(ring.index(name) in free for name in pair)]
@@ -344,7 +345,8 @@ def _certified_box(
 ) -> BoxPoint | None:
     point = boxed_point(system.ring, equations, values, [float(v) for v in sample])
     try:
-        return point if point is not None and system.admits(point) else None
+        known = point is not None and pinned(point, system.ring.constants) and system.admits(point)
+        return point if known else None
     except Undecided:
         return None
 

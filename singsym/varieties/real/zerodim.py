@@ -25,6 +25,7 @@ from singsym.elimination.ideal import Ideal
 from singsym.elimination.memo import is_known, remember
 from singsym.elimination.verdict import note
 from singsym.polynomials import AlgebraicConstant, Polynomial, Ring
+from singsym.varieties.real.box import BoxPoint
 from singsym.varieties.real.completeness import is_complete
 from singsym.varieties.real.macaulay import quotient_algebra_over
 from singsym.varieties.real.parametrization import Parametrization, divides, parametrize, primes
@@ -217,7 +218,7 @@ def _read(ring: Ring, raw: RawParametrization) -> tuple[Parametrization, bool]:
     ), separating and squarefree
 
 
-def pinned(point: RealPoint, constants: Sequence[AlgebraicConstant]) -> bool:
+def pinned(point: RealPoint | BoxPoint, constants: Sequence[AlgebraicConstant]) -> bool:
     """Whether each algebraic constant has its own value at the point, not that of a conjugate."""
     return all(
         point.sign(point.ring.gen(c.name) - c.low) >= 0 and point.sign(point.ring.gen(c.name) - c.high) <= 0

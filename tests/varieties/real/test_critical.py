@@ -5,6 +5,7 @@ from __future__ import annotations
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Ring
 from singsym.varieties.decomposition import Component
+from singsym.varieties.purity import PurePiece
 from singsym.varieties.real.critical import _few_equations
 
 
@@ -14,7 +15,7 @@ def test_few_equations_stand_for_a_long_basis() -> None:
     x, y, z, w = ring.gens
     equations = (y - x**2 + z**3 * w, z - y**2 + x * w, w - z**2 + x * y)
     basis = Ideal(ring, equations).groebner_basis()
-    component = Component(Ideal(ring, basis), prime=False, dimension=1, cohen_macaulay=True)
+    piece = PurePiece.of(Component(Ideal(ring, basis), prime=False, dimension=1, purity="Cohen-Macaulay"))
     assert len(basis) > 6
-    assert _few_equations(component, equations) == equations
-    assert _few_equations(component, equations[:2]) == basis
+    assert _few_equations(piece, equations) == equations
+    assert _few_equations(piece, equations[:2]) == basis

@@ -1,0 +1,169 @@
+"""L as a matrix of pure numbers: lengths over a characteristic length, joints by unit screws.
+
+Source: characteristic lengths: Angeles, Fundamentals of Robotic Mechanical Systems (2007), section 5.8.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from singsym.kinematics.sampling import numerical_matrix
+from singsym.kinematics.velocity import VelocityEquation
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from singsym.kinematics.numerical_rank import Matrix
+
+    Floats = NDArray[np.float64]
+
+_DROPPED: dict[str, tuple[str, ...]] = {
+    "L": (),
+    "L_I": ("input",),
+    "L_O": ("output",),
+    "L_p": ("input", "output"),
+}
+_LINEAR = ("vx", "vy", "vz", "x", "y", "z")
+
+
+@dataclass(frozen=True)
+class Scaled:
+    """L at a configuration, in pure numbers.
+
+    units: what each column was multiplied by, so that rates = scaled rates * units; length: the
+    characteristic length, the root mean square distance of the named points from their centre.
+    """
+
+    equation: VelocityEquation
+    matrix: Matrix
+    units: Floats
+    length: float
+
+    def columns(self, name: str) -> list[int]:
+        """The places of the columns of L, L_I, L_O or L_p."""
+        return [j for j, c in enumerate(self.equation.columns) if c.role not in _DROPPED[name]]
+
+    def submatrices(self) -> dict[str, Matrix]:
+        """L, L_I, L_O and L_p."""
+        return {name: self.matrix[:, self.columns(name)] for name in _DROPPED}
+
+
+def scaled_matrix(equation: VelocityEquation, point: Sequence[Any] | Floats) -> Scaled:
+    """L at a point, of floats or of mpmath numbers, with rows and columns scaled by their kind.
+
+    Velocities are over the characteristic length, and taken at the centre of the named points; a slide has a
+    unit direction and the length as its unit, a rotation the radian.  No row or column is scaled by its own
+    size unless that is nonzero on the feasible set: the direction of a slide, and of a rod's idle spin.  So
+    the matrix does not depend on the unit of length, nor on where the fixed frame stands.
+    Equations of one's own, whose kinds are not known, are divided by the largest singular value of L.
+    """
+    import numpy as np
+
+    matrix = _evaluated(equation, point)
+    here = point.tolist() if isinstance(point, np.ndarray) else list(point)
+    places = [[float(p.evaluate(here)) for p in v] for v in equation.space.points.values()]
+    if equation.space.formulation == "given":
+        whole = float(np.linalg.norm(matrix.astype(np.float64), 2)) if matrix.size else 0.0
+        return Scaled(equation, matrix / (whole or 1.0), np.ones(matrix.shape[1]), _spread(places) or 1.0)
+    slides = [_is_slide(equation, j) for j in range(len(equation.columns))]
+    blocks = _loops(equation)
+    for angular, linear in blocks:
+        if angular and linear and places:
+            _move(matrix, angular, linear, np.mean(places, axis=0))
+    length = _spread(places) or _reach(equation, matrix, slides) or 1.0
+    units = np.where(slides, length, 1.0)
+    for j in np.flatnonzero(slides):
+        sizes = [_norm(matrix[linear, j]) for _, linear in blocks]
+        units[j] /= max(sizes, default=0.0) or 1.0
+    rows = np.ones(len(equation.rows))
+    for i, name in enumerate(equation.rows):
+        followed = _followed_joint(equation, i)
+        if followed is not None:
+            rows[i] = units[i] = units[followed]
+        elif name.rpartition(" ")[2] in _LINEAR and name.startswith(("output", "loop")):
+            rows[i] = length
+            if name.startswith("output"):
+                units[i] = length
+        elif name.startswith("no idle spin"):
+            rows[i] = _norm(matrix[i]) or 1.0
+    return Scaled(equation, matrix * units / rows[:, None], units, length)
+
+
+def _evaluated(equation: VelocityEquation, point: Sequence[Any] | Floats) -> Matrix:
+    import numpy as np
+
+    if isinstance(point, np.ndarray):
+        return numerical_matrix(equation.matrix, point)
+    zero = point[0] * 0 if point else 0.0
+    rows = [[e + zero for e in row] for row in equation.matrix.evaluate(point)]
+    return np.array(rows, dtype=object).reshape(equation.matrix.shape)
+
+
+def _loops(equation: VelocityEquation) -> list[tuple[list[int], list[int]]]:
+    """For each loop its angular and its linear rows."""
+    found: dict[str, tuple[list[int], list[int]]] = {}
+    for i, name in enumerate(equation.rows):
+        if name.startswith("loop "):
+            loop, _, axis = name.rpartition(" ")
+            found.setdefault(loop, ([], []))[axis in _LINEAR].append(i)
+    return list(found.values())
+
+
+def _is_slide(equation: VelocityEquation, j: int) -> bool:
+    """Whether a joint's rate is a length: by its value, or because it turns nothing in a loop."""
+    value = equation.values.get(equation.columns[j].label)
+    if value is not None and (value.length is not None or value.square is not None):
+        return True
+    for angular, linear in _loops(equation):
+        if any(equation.matrix[i, j] for i in linear):
+            return not any(equation.matrix[i, j] for i in angular)
+    return False
+
+
+def _followed_joint(equation: VelocityEquation, i: int) -> int | None:
+    """The column of the joint whose rate is the output of row i, None for other rows."""
+    kind, _, name = equation.rows[i].partition(" ")
+    if kind != "output":
+        return None
+    entries = [j for j in range(equation.matrix.width) if j != i and equation.matrix[i, j]]
+    if len(entries) != 1 or equation.columns[entries[0]].label != name:
+        return None
+    return entries[0] if equation.matrix[i, entries[0]] == -equation.space.ring.one else None
+
+
+def _move(matrix: Matrix, angular: list[int], linear: list[int], centre: Floats) -> None:
+    """Take the velocities of a loop at another point: v + w x c."""
+    if len(angular) == 1:
+        spin = matrix[angular[0]]
+        matrix[linear[0]] = matrix[linear[0]] - spin * centre[1]
+        matrix[linear[1]] = matrix[linear[1]] + spin * centre[0]
+        return
+    for k in range(3):
+        first, second = (k + 1) % 3, (k + 2) % 3
+        turned = matrix[angular[first]] * centre[second] - matrix[angular[second]] * centre[first]
+        matrix[linear[k]] = matrix[linear[k]] + turned
+
+
+def _reach(equation: VelocityEquation, matrix: Matrix, slides: Sequence[bool]) -> float:
+    """The largest velocity that a unit rotation gives, where the points are all in one place."""
+    rows = [i for i, name in enumerate(equation.rows) if name.rpartition(" ")[2] in _LINEAR]
+    turns = [j for j, c in enumerate(equation.columns) if c.role != "output" and not slides[j]]
+    return max((_norm(matrix[rows, j]) for j in turns), default=0.0)
+
+
+def _spread(places: Sequence[Sequence[float]]) -> float:
+    """The root mean square distance of points from their centre; 0 where they differ by rounding only."""
+    import numpy as np
+
+    if not places:
+        return 0.0
+    away = np.array(places) - np.mean(places, axis=0)
+    spread = float(np.sqrt((away**2).sum(axis=1).mean()))
+    return spread if spread > 1e-12 * float(np.abs(places).max()) else 0.0
+
+
+def _norm(entries: Matrix) -> float:
+    return float((entries**2).sum() ** 0.5) if entries.size else 0.0
