@@ -17,22 +17,22 @@ from singsym.classes.explore import Branch, Found
 from singsym.classes.extent import EMPTY, Extent, union
 from singsym.classes.processes import processes
 from singsym.classes.realise import Counted, CurveTask, Names, Realised, RealTask, count, realise
-from singsym.classes.result import Classification, ClassResult, Locus, Piece
+from singsym.classes.result import Classification, ClassResult, Locus, Piece, conditions_latex
 from singsym.classes.search import Exploration, Loci, SingularLoci, search
 from singsym.classes.space import configuration_space
 from singsym.classes.steps import excluded_in, found_in
 from singsym.classes.strata import RankProblem, Stratum
 from singsym.classes.symmetry import reflections
 from singsym.classes.types import Defects, SingularityClass, SingularityType, feasible_classes
+from singsym.classes.units import Border
 from singsym.classes.work import Runner
 from singsym.elimination import engines
 from singsym.elimination.budget import Budget
-from singsym.elimination.conditions import Conditions, Factor, conditions, polynomial_latex
+from singsym.elimination.conditions import Conditions, Factor, conditions
 from singsym.elimination.verdict import Certainty, Verdict, weakest
 from singsym.kinematics.reduction import reduce
-from singsym.kinematics.velocity import VelocityEquation, velocity_equation
+from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import Mechanism
-from singsym.polynomials import Polynomial
 from singsym.varieties.real.witness import RealSystem
 
 FIRST_SECONDS, SECOND_SECONDS = 1.0, 5.0
@@ -80,13 +80,11 @@ def classify(
     >>> [(c.singularity_class, c.points) for c in result.classes if c.verdict.is_yes]
     [(1 (RI, IO), 2)]
     """
-    return classify_equation(
-        mechanism,
-        velocity_equation(mechanism, formulation),
-        workers=workers,
-        executor=executor,
-        limits=limits,
-        cache=cache,
+    border = Border.of(mechanism, formulation)
+    return border.classification(
+        classify_inside(
+            mechanism, border.inside, workers=workers, executor=executor, limits=limits, cache=cache
+        )
     )
 
 
@@ -100,6 +98,22 @@ def classify_equation(
     cache: bool = True,
 ) -> Classification:
     """The same for a velocity equation, such as one of the user's own; see `classify`."""
+    found = classify_inside(
+        mechanism, equation, workers=workers, executor=executor, limits=limits, cache=cache
+    )
+    return Border.around(equation).classification(found)
+
+
+def classify_inside(
+    mechanism: Mechanism | None,
+    equation: VelocityEquation,
+    *,
+    workers: int = 1,
+    executor: Executor | None = None,
+    limits: Limits | None = None,
+    cache: bool = True,
+) -> Classification:
+    """The same in the unit of the equation, its configurations with more digits than are reported."""
     started = time.monotonic()
     with ExitStack() as stack:
         if executor is None:
@@ -410,23 +424,3 @@ def _reservations(extent: Extent, known: Certainty) -> str:
     if extent.bounded != "proven":
         return "that no part of it has a larger dimension rests on random primes"
     return ""
-
-
-def conditions_latex(pieces: Sequence[Piece]) -> str:
-    """The equations and inequations of a class as LaTeX: the factors on the way to each piece."""
-    lines: dict[str, None] = {}
-    for piece in pieces:
-        equal = [f"{polynomial_latex(p)} = 0" for p in piece.path]
-        unequal = [_nonzero_latex(e) for e in piece.exclusions]
-        lines[r",\; ".join((*equal, *unequal))] = None
-    return r" \quad\text{or}\quad ".join(lines)
-
-
-def _nonzero_latex(exclusion: tuple[Polynomial, ...]) -> str:
-    if len(exclusion) == 1:
-        factors = [p for p, _ in exclusion[0].factors()]
-        if len(factors) > 1:
-            return r",\; ".join(f"{polynomial_latex(p)} \\ne 0" for p in factors)
-        return f"{polynomial_latex(exclusion[0])} \\ne 0"
-    listed = ", ".join(polynomial_latex(p, 6) for p in exclusion)
-    return rf"\left({listed}\right) \ne 0"

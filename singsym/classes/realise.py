@@ -40,7 +40,8 @@ from singsym.varieties.real.sampling import numerical_codimension
 from singsym.varieties.real.witness import RealSystem, Witness, find_witness
 from singsym.varieties.real.zerodim import NotZeroDimensional, real_points
 
-DIGITS = 15
+DIGITS = 24
+"""Of decimals inside, more than are reported, so that they can be turned to another unit."""
 SEARCHES = 300
 """Random starts in the search for a point of a set given by independent equations."""
 
@@ -365,7 +366,7 @@ def _off_whole_parts(task: CurveTask) -> Ideal:
 
 
 def configuration(point: RealPoint | BoxPoint, names: Names) -> Configuration:
-    """A point as decimal strings of 15 digits, with a bound on their error.
+    """A point as decimal strings of `DIGITS` digits, with a bound on their error.
 
     Coordinates of the configuration space, of the named points, and joint values: angles in radians.
     """
@@ -406,8 +407,7 @@ def _decimals(table: Mapping[str, arb]) -> tuple[dict[str, str], float]:
     shown: dict[str, str] = {}
     worst = 0.0
     for name, value in table.items():
-        middle = float(value.mid())
-        shown[name] = f"{middle:.{DIGITS}g}" if middle else "0"
+        shown[name] = value.mid().str(DIGITS, radius=False)
         error = abs(value - arb(shown[name]))
         worst = max(worst, float(error.upper()))
     return shown, worst * (1 + 1e-9)

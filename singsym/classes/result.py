@@ -12,6 +12,7 @@ from typing import Any
 
 from singsym.classes.extent import UNKNOWN, Extent
 from singsym.classes.types import Defects, SingularityClass, SingularityType
+from singsym.elimination.conditions import polynomial_latex
 from singsym.elimination.verdict import Verdict
 from singsym.kinematics.reduction import Reduction
 from singsym.kinematics.velocity import VelocityEquation
@@ -293,6 +294,26 @@ def _open(what: str, found: Locus | ClassResult) -> Iterator[tuple[str, str]]:
         yield f"dimension of {what}", found.extent.open
     elif found.open:
         yield f"number of {what}", found.open
+
+
+def conditions_latex(pieces: Sequence[Piece]) -> str:
+    """The equations and inequations of a class as LaTeX: the factors on the way to each piece."""
+    lines: dict[str, None] = {}
+    for piece in pieces:
+        equal = [f"{polynomial_latex(p)} = 0" for p in piece.path]
+        unequal = [_nonzero_latex(e) for e in piece.exclusions]
+        lines[r",\; ".join((*equal, *unequal))] = None
+    return r" \quad\text{or}\quad ".join(lines)
+
+
+def _nonzero_latex(exclusion: tuple[Polynomial, ...]) -> str:
+    if len(exclusion) == 1:
+        factors = [p for p, _ in exclusion[0].factors()]
+        if len(factors) > 1:
+            return r",\; ".join(f"{polynomial_latex(p)} \\ne 0" for p in factors)
+        return f"{polynomial_latex(exclusion[0])} \\ne 0"
+    listed = ", ".join(polynomial_latex(p, 6) for p in exclusion)
+    return rf"\left({listed}\right) \ne 0"
 
 
 def _sizes(result: ClassResult) -> tuple[str, str, str]:

@@ -6,22 +6,24 @@ Source: Zlatanov, Fenton, Benhabib (1998), the propositions of section 2.3: (iii
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from concurrent.futures import Executor
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
 
 from singsym.classes.cache import user_cache
-from singsym.classes.classify import Limits, classify_equation
+from singsym.classes.classify import Limits, classify_inside
 from singsym.classes.processes import processes
 from singsym.classes.realise import Names, configuration
 from singsym.classes.result import Classification, Configuration, Equations, Piece
 from singsym.classes.types import SingularityType
+from singsym.classes.units import Border
 from singsym.classes.work import Runner
 from singsym.elimination.budget import Budget, Undecided
 from singsym.elimination.conditions import Condition, Conditions, conditions
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.verdict import Verdict
-from singsym.kinematics.velocity import VelocityEquation, velocity_equation
+from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import Mechanism
 from singsym.varieties.cells import Cell
 from singsym.varieties.constructible import ConstructibleSet
@@ -161,9 +163,9 @@ def solve(
     >>> dead.dimension, sum(p.points for p in dead.pieces)
     (0, 2)
     """
-    return solve_equation(
-        velocity_equation(mechanism, formulation),
-        *labels,
+    return _solved(
+        Border.of(mechanism, formulation),
+        labels,
         workers=workers,
         executor=executor,
         limits=limits,
@@ -182,7 +184,30 @@ def solve_equation(
     mechanism: Mechanism | None = None,
 ) -> tuple[Solution, ...]:
     """The same for a velocity equation, such as one of the user's own."""
-    found = conditions(equation)
+    return _solved(
+        Border.around(equation),
+        labels,
+        workers=workers,
+        executor=executor,
+        limits=limits,
+        cache=cache,
+        mechanism=mechanism,
+    )
+
+
+def _solved(
+    border: Border,
+    labels: Sequence[str],
+    *,
+    workers: int,
+    executor: Executor | None,
+    limits: Limits | None,
+    cache: bool,
+    mechanism: Mechanism | None,
+) -> tuple[Solution, ...]:
+    """The solution sets, found inside and turned to the user's unit."""
+    found = conditions(border.inside)
+    outside = found if border.unit == 1 else conditions(border.outside)
     asked = [found[label] for label in labels]
     limits = limits or Limits()
     with ExitStack() as stack:
@@ -195,12 +220,15 @@ def solve_equation(
         results = []
         for condition in asked:
             if condition.alternatives is None or condition.everywhere:
-                whole = whole or classify_equation(
-                    mechanism, equation, executor=executor, limits=limits, cache=cache
+                whole = whole or classify_inside(
+                    mechanism, border.inside, executor=executor, limits=limits, cache=cache
                 )
-                results.append(_from_classes(condition, whole))
+                solution = _from_classes(condition, whole)
             else:
-                results.append(_closed(condition, found, runner, limits))
+                solution = _closed(condition, found, runner, limits)
+            shown = tuple(map(border.part, solution.pieces))
+            seen = outside[condition.label]
+            results.append(replace(solution, condition=seen, equation=border.outside, pieces=shown))
         return tuple(results)
 
 

@@ -21,6 +21,7 @@ class ConfigurationSpace:
     exclusions: of each tuple, not all polynomials may vanish ("leg not folded").
     positive, nonnegative: p > 0, p >= 0 (ranges of parameters, joint limits).
     parameters: the ring's names that are dimensions and not configuration variables.
+    lengths: the configuration variables that are lengths; the others are pure numbers.
     points: coordinates of the named points of space, 2 (planar) or 3.
     directions: components of the named axes, in the fixed frame.
     """
@@ -31,6 +32,7 @@ class ConfigurationSpace:
     positive: tuple[Polynomial, ...] = ()
     nonnegative: tuple[Polynomial, ...] = ()
     parameters: tuple[str, ...] = ()
+    lengths: tuple[str, ...] = ()
     points: Mapping[str, Coordinates] = field(default_factory=dict)
     directions: Mapping[str, Coordinates] = field(default_factory=dict)
     formulation: str = ""

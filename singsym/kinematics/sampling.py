@@ -7,10 +7,12 @@ Numbers found here may suggest and illustrate; nothing is concluded from them.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from singsym.kinematics.placement import ConfigurationSpace
 from singsym.polynomials import Polynomial, PolynomialMatrix
+from singsym.polynomials.sizes import variable_sizes
 
 if TYPE_CHECKING:
     import numpy as np
@@ -20,6 +22,8 @@ if TYPE_CHECKING:
 
 _STEPS = 60
 _TOLERANCE = 1e-12
+# values of inequalities and exclusions that count as zero, over the sizes of their terms
+_ZERO, _NEAR_ZERO = 1e-9, 1e-6
 
 
 class NumericalSystem:
@@ -28,6 +32,7 @@ class NumericalSystem:
     def __init__(self, polynomials: Sequence[Polynomial], size: int) -> None:
         import numpy as np
 
+        self.polynomials = tuple(polynomials)
         monomials: dict[tuple[int, ...], int] = {}
         rows, columns, values = [], [], []
         for i, polynomial in enumerate(polynomials):
@@ -39,6 +44,23 @@ class NumericalSystem:
         self.exponents = np.array(list(monomials), dtype=np.int64).reshape(len(monomials), size)
         self.coefficients = np.zeros((len(polynomials), len(monomials)))
         self.coefficients[rows, columns] = values
+
+    @cached_property
+    def sizes(self) -> Floats:
+        """How large the variables are, by `variable_sizes`."""
+        import numpy as np
+
+        if not self.polynomials:
+            return np.ones(self.exponents.shape[1])
+        return np.array(variable_sizes(self.polynomials[0].ring, self.polynomials))
+
+    def magnitudes(self, point: Floats, sizes: Floats) -> Floats:
+        """Sums of the absolute values of all terms, where no variable is taken for smaller than its size."""
+        import numpy as np
+
+        far = np.maximum(np.abs(point), sizes)
+        found: Floats = np.abs(self.coefficients) @ (far**self.exponents).prod(axis=1)
+        return found
 
     def values(self, point: Floats) -> Floats:
         """The polynomials' values."""
@@ -86,42 +108,60 @@ def sample_configurations(
     random = np.random.default_rng(seed)
     size = len(space.ring.names)
     equations = NumericalSystem(space.equations, size)
-    positive = NumericalSystem((*space.positive, *space.nonnegative), size)
+    sides = NumericalSystem((*space.positive, *space.nonnegative), size)
     exclusions = [NumericalSystem(group, size) for group in space.exclusions]
     known = {space.ring.index(c.name): _root(c) for c in space.ring.constants}
     dimensions = {space.ring.index(name) for name in space.parameters}
     free = [i for i in range(size) if i not in known and i not in dimensions]
-    ranges = _Ranges(space, known)
-    extent = _extent(space)
+    sizes = np.array(variable_sizes(space.ring, _all_polynomials(space)))
+    ranges = _Ranges(space, sizes)
     found: list[Floats] = []
     for attempt in range(tries):
         if len(found) == count:
             break
-        point = random.normal(size=size) * extent * (0.3, 1.0, 3.0)[attempt % 3]
+        point = random.normal(size=size) * sizes * (0.3, 1.0, 3.0)[attempt % 3]
         for index, value in known.items():
             point[index] = value
         if not ranges.draw(point, random):
             continue
         landed = project(equations, point, free)
-        if landed is None or not (positive.values(landed) >= -1e-9).all():
+        if landed is None or (sides.values(landed) < -_ZERO * sides.magnitudes(landed, sizes)).any():
             continue
-        if any(np.abs(group.values(landed)).max(initial=0.0) < 1e-6 for group in exclusions):
+        if any(_vanish(group, landed, sizes) for group in exclusions):
             continue
         found.append(landed)
     return found
 
 
-def project(equations: NumericalSystem, point: Floats, free: list[int]) -> Floats | None:
-    """The end of Gauss-Newton from a point, moving the free coordinates only; None where it stalls."""
+def _all_polynomials(space: ConfigurationSpace) -> tuple[Polynomial, ...]:
+    """Equations, conditions and coordinates of points: what tells how large the variables are."""
+    groups = (*space.exclusions, *space.points.values())
+    return (*space.equations, *space.positive, *space.nonnegative, *(p for group in groups for p in group))
+
+
+def _vanish(group: NumericalSystem, point: Floats, sizes: Floats) -> bool:
+    """Whether all of them are about zero."""
     import numpy as np
 
+    return bool((np.abs(group.values(point)) <= _NEAR_ZERO * group.magnitudes(point, sizes)).all())
+
+
+def project(equations: NumericalSystem, point: Floats, free: list[int]) -> Floats | None:
+    """The end of Gauss-Newton from a point, moving the free coordinates only; None where it stalls.
+
+    Values count against the sizes of their equations' terms, steps against the sizes of the variables.
+    """
+    import numpy as np
+
+    sizes = equations.sizes
     for _ in range(_STEPS):
-        residual = equations.values(point)
-        scale = 1.0 + float(np.abs(point).max(initial=0.0)) ** 2
-        if float(np.abs(residual).max(initial=0.0)) < _TOLERANCE * scale:
+        scale = equations.magnitudes(point, sizes)
+        scale[scale == 0] = 1.0
+        residual = equations.values(point) / scale
+        if float(np.abs(residual).max(initial=0.0)) < _TOLERANCE:
             return point
-        jacobian = equations.jacobian(point)[:, free]
-        step = np.linalg.lstsq(jacobian, residual, rcond=1e-10)[0]
+        jacobian = equations.jacobian(point)[:, free] * sizes[free] / scale[:, np.newaxis]
+        step = np.linalg.lstsq(jacobian, residual, rcond=1e-10)[0] * sizes[free]
         point = point.copy()
         point[free] -= step
         if not np.isfinite(point).all():
@@ -132,10 +172,11 @@ def project(equations: NumericalSystem, point: Floats, free: list[int]) -> Float
 class _Ranges:
     """Draws parameters within their open ranges: rejection on the inequalities in parameters alone."""
 
-    def __init__(self, space: ConfigurationSpace, known: dict[int, float]) -> None:
+    def __init__(self, space: ConfigurationSpace, sizes: Floats) -> None:
         names = {*space.parameters, *(c.name for c in space.ring.constants)}
         size = len(space.ring.names)
         self.indices = [space.ring.index(name) for name in space.parameters]
+        self.sizes = sizes[self.indices]
         self.bounds = NumericalSystem([p for p in space.positive if set(p.variables) <= names], size)
         # auxiliary roots and inverses of parameters obey equations among the dimensions alone
         own = [e for e in space.equations if set(e.variables) <= names]
@@ -147,7 +188,7 @@ class _Ranges:
 
         for attempt in range(200):
             spread = (1.0, 3.0, 10.0, 0.3)[attempt % 4]
-            point[self.indices] = np.abs(random.normal(size=len(self.indices))) * spread
+            point[self.indices] = np.abs(random.normal(size=len(self.indices))) * spread * self.sizes
             if (self.bounds.values(point) > 0).all():
                 if not len(self.relations.coefficients):
                     return True
@@ -173,13 +214,3 @@ def _root(constant: Any) -> float:
         else:
             high = middle
     return float((low + high) / 2)
-
-
-def _extent(space: ConfigurationSpace) -> float:
-    """A length to start from: the largest root-like size that the equations' constant terms suggest."""
-    sizes = [1.0]
-    for equation in space.equations:
-        constant = abs(equation.constant)
-        if constant != 0 and equation.total_degree > 0:
-            sizes.append(float(int(constant.p) / int(constant.q)) ** (1 / equation.total_degree))
-    return max(sizes)

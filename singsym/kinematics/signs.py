@@ -9,11 +9,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
-from math import inf
+from math import inf, isfinite
 
 from singsym.kinematics.short_forms import ShortForms, short_forms
 from singsym.polynomials import Polynomial, Ring
 from singsym.polynomials.ranges import EVERYTHING, Interval, fraction, meet, polynomial_range, root_above
+
+# relative to the largest term
+_ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,7 +114,7 @@ class Signs:
 
     def _straddles_zero(self, polynomial: Polynomial) -> bool:
         """A first look in floats, which spares exact bounds where they cannot have one sign."""
-        low = high = 0.0
+        low = high = largest = 0.0
         for exponents, c in polynomial.terms():
             ends = [int(c.p) / int(c.q)] * 2
             for (a, b), e in zip(self._float_bounds, exponents, strict=True):
@@ -122,7 +125,8 @@ class Signs:
                     products = [x * y if x and y else 0.0 for x in ends for y in power]
                     ends = [min(products), max(products)]
             low, high = low + ends[0], high + ends[1]
-        return low < -1e-6 and high > 1e-6
+            largest = max([largest, *(abs(x) for x in ends if isfinite(x))])
+        return low < -_ROUNDING * largest and high > _ROUNDING * largest
 
 
 def is_definite(polynomial: Polynomial) -> bool:

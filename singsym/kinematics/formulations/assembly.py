@@ -21,6 +21,7 @@ class Assembly:
     """Bodies and equations as a formulation finds them.
 
     scaled: screws that only the formulation can tell, up to a nonzero factor.
+    lengths: the variables that are lengths.
     circles: c^2 + s^2 - 1 by which closure equations are shortened.  Screws are not: determinants factor
         as they stand, with units c^2 + s^2, and no longer after c^2 = 1 - s^2 has been used in some entries.
     """
@@ -33,6 +34,7 @@ class Assembly:
     values: dict[str, JointValue] = field(default_factory=dict)
     scaled: dict[str, Coordinates] = field(default_factory=dict)
     idle_spins: list[tuple[str, Coordinates]] = field(default_factory=list)
+    lengths: tuple[str, ...] = ()
     circles: tuple[Polynomial, ...] = ()
 
     def close(self, joints: Iterable[Joint], lengths: Mapping[str, str] | None = None) -> None:
@@ -66,6 +68,7 @@ def placement(assembly: Assembly, sized: Sized, formulation: str) -> Placement:
         equations=_distinct((*sized.relations, *closing)),
         positive=sized.positive,
         parameters=sized.parameters,
+        lengths=assembly.lengths,
         points=_space_points(mechanism, link_points),
         directions=_directions(mechanism, geometry, bodies),
         formulation=formulation,

@@ -75,6 +75,12 @@ def place(mechanism: Mechanism, *, angles: str = "auto", quaternion: bool = Fals
     grown = grow(geometry, algebra, {mechanism.ground: origin, **moved}, steps)
     assembly = Assembly(mechanism, geometry, algebra, grown.bodies, list(grown.circles), grown.values)
     assembly.circles = grown.circles
+    assembly.lengths = (
+        *(v for step in steps for v in step.lengths),
+        *(v for position in positions.values() for v in position),
+        *(v for platform in platforms for v in platform.lengths),
+        *(v for strut in struts for v in strut.lengths),
+    )
     hang_platforms(assembly, platforms, rods)
     hang_struts(assembly, struts)
     used = {step.joint.name for step in steps}

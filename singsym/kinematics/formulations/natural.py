@@ -35,6 +35,11 @@ def place(mechanism: Mechanism, *, quaternion: bool = False) -> Placement:
     sized = dimensions(mechanism, names)
     algebra = Algebra(sized.ring, sized.number)
     assembly = Assembly(mechanism, geometry, algebra)
+    assembly.lengths = (
+        *(name for plan in plans for name in plan.lengths),
+        *closing.values(),
+        *(name for strut in struts for name in strut.lengths),
+    )
     assembly.bodies[mechanism.ground] = rigid(algebra, algebra.origin, algebra.axes)
     for plan in plans:
         _place_link(assembly, plan)

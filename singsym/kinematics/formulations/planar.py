@@ -75,6 +75,7 @@ class _Placing:
             tuple(dict.fromkeys(e for e in (*self.sized.relations, *closing) if e)),
             positive=self.sized.positive,
             parameters=self.sized.parameters,
+            lengths=self.plan.lengths,
             points=self._named_points(),
             formulation="planar",
         )

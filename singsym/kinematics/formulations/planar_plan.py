@@ -54,6 +54,12 @@ class Plan:
     free_links: Mapping[str, tuple[str, str]]
     placing_slides: Mapping[str, str]
 
+    @property
+    def lengths(self) -> tuple[str, ...]:
+        """The variables that are lengths: all but directions."""
+        directions = {name for group in self.directed.values() for name in group or ()}
+        return tuple(name for name in self.variables if name not in directions)
+
 
 def plan(mechanism: Mechanism) -> Plan:
     """Choose the variables of a planar mechanism.

@@ -36,6 +36,11 @@ class Platform:
     corners: tuple[Hanger, ...]
     names: tuple[str, ...]
 
+    @property
+    def lengths(self) -> tuple[str, ...]:
+        """The variables that are lengths: all but a quaternion."""
+        return self.names[:3] if len(self.names) == len(POSE) else self.names
+
 
 def find_platforms(
     mechanism: Mechanism,

@@ -54,6 +54,14 @@ class LinkPlan:
         own = [name for vector in self.vectors for name in vector.names]
         return (*self.anchor.names, *own)
 
+    @property
+    def lengths(self) -> tuple[str, ...]:
+        """Those of them that are lengths: coordinates of points, and slides."""
+        if self.pose:
+            return self.pose[:3]
+        own = [name for vector in self.vectors if vector.is_point for name in vector.names]
+        return (*self.anchor.names, *own)
+
 
 def plan_links(
     mechanism: Mechanism, geometry: local.Geometry, rods: Collection[str], quaternion: bool

@@ -44,6 +44,11 @@ class Strut:
     slide: Joint | None
     names: tuple[str, ...]
 
+    @property
+    def lengths(self) -> tuple[str, ...]:
+        """The variables that are lengths: not the direction."""
+        return self.names[:1]
+
 
 def hangers(mechanism: Mechanism, geometry: local.Geometry, link: str) -> list[Hanger]:
     """The spherical joints of a link, in the mechanism's order."""

@@ -5,12 +5,17 @@ Source: Gauss-Newton from random starts, see `search`.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from singsym.elimination.chaos import strikes
 from singsym.polynomials import Polynomial
+from singsym.polynomials.sizes import largest_term
 from singsym.varieties.real.witness import RealSystem
 
 NEAR = 1e-3
-"""Smaller values of exclusions with coefficients of size 1 are taken for zero: as at a fourfold root."""
+"""Smaller values of exclusions over their largest terms are taken for zero: as at a fourfold root."""
+ROUNDING = 1e-9
+"""So far below zero, over their largest terms, inequalities are taken to hold."""
 STARTS = (4, 56)
 """So many random starts are tried together for numerical points of a set, until there are enough."""
 POLISHING = 15
@@ -39,7 +44,7 @@ def numerical_points(system: RealSystem, count: int = 3) -> Points:
     random = numpy.random.default_rng(0)
     found: list[tuple[float, ...]] = []
     for number in STARTS:
-        starts = random.normal(size=(number, compiled.size)) * 2
+        starts = random.normal(size=(number, compiled.size)) * 2 * compiled.sizes
         for constant in ring.constants:
             starts[:, ring.index(constant.name)] = float((constant.low + constant.high) / 2)
         for near in approach(compiled, starts):
@@ -47,15 +52,19 @@ def numerical_points(system: RealSystem, count: int = 3) -> Points:
             if x is None:
                 continue
             point = tuple(map(float, x[: len(ring.names)]))
-            if (
-                all(is_off(point, group) for group in system.exclusions)
-                and all(p.evaluate(point) > 0 and is_large(p, (point,)) for p in system.positive)
-                and all(p.evaluate(point) > -1e-9 for p in system.nonnegative)
-            ):
+            if _is_feasible(point, system, tuple(map(float, compiled.sizes[: len(ring.names)]))):
                 found.append(point)
             if len(found) == count:
                 return tuple(found)
     return tuple(found)
+
+
+def _is_feasible(point: tuple[float, ...], system: RealSystem, sizes: Sequence[float]) -> bool:
+    return (
+        all(is_off(point, group, sizes) for group in system.exclusions)
+        and all(p.evaluate(point) > 0 and is_large(p, (point,), sizes=sizes) for p in system.positive)
+        and all(p.evaluate(point) > -ROUNDING * largest_term(p, sizes) for p in system.nonnegative)
+    )
 
 
 def numerical_codimension(system: RealSystem) -> int | None:
@@ -75,16 +84,24 @@ def numerical_codimension(system: RealSystem) -> int | None:
     points = numerical_points(system, 1)
     if not points:
         return None
-    _, slope = Compiled(system.closed_equations, system.ring)(numpy.array(points[0]))
-    return numerical_rank(slope, 1e-7).rank
+    compiled = Compiled(system.closed_equations, system.ring)
+    _, slope = compiled(numpy.array(points[0]))
+    return numerical_rank(slope * compiled.sizes, 1e-7).rank
 
 
-def is_off(point: tuple[float, ...], group: tuple[Polynomial, ...]) -> bool:
-    """Whether some polynomial is not small at a point."""
-    return any(is_large(g, (point,), NEAR) for g in group)
+def is_off(
+    point: tuple[float, ...], group: tuple[Polynomial, ...], sizes: Sequence[float] | None = None
+) -> bool:
+    """Whether some polynomial is not small at a point; sizes: of the variables, see `is_large`."""
+    return any(is_large(g, (point,), NEAR, sizes) for g in group)
 
 
-def is_large(polynomial: Polynomial, points: Points, least: float = 1e-6) -> bool:
-    """Whether a polynomial is certainly not small at one of the points, relative to its coefficients."""
-    size = max((abs(float(c.p) / float(c.q)) for _, c in polynomial.terms()), default=0.0)
+def is_large(
+    polynomial: Polynomial, points: Points, least: float = 1e-6, sizes: Sequence[float] | None = None
+) -> bool:
+    """Whether a polynomial is certainly not small at one of the points.
+
+    Relative to its largest term where all variables have these sizes; to its coefficients without them.
+    """
+    size = largest_term(polynomial, sizes or (1.0,) * len(polynomial.ring.names))
     return any(abs(polynomial.evaluate(x)) > least * size for x in points)

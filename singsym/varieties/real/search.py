@@ -6,19 +6,27 @@ Yamashita, Fukushima, On the Rate of Convergence of the Levenberg-Marquardt Meth
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
 from singsym.polynomials import Polynomial, Ring
+from singsym.polynomials.sizes import largest_term, variable_sizes
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Vector = NDArray[np.float64]
-    Map = Callable[[Vector], tuple[Vector, Vector]]
+
+
+class Map(Protocol):
+    """Values and Jacobian matrix at a point; `sizes` of the variables, against which steps are measured."""
+
+    sizes: Vector
+
+    def __call__(self, x: Vector) -> tuple[Vector, Vector]: ...
 
 
 # damping over the squared norm of the values, and its least over the squared norm of the slopes
@@ -30,10 +38,18 @@ _REACHED, _NEAR = 1e-12, 1e-4
 
 
 class Compiled:
-    """Polynomials and their first derivatives as NumPy functions, each scaled to coefficients <= 1."""
+    """Polynomials and their first derivatives as NumPy functions.
 
-    def __init__(self, polynomials: Sequence[Polynomial], ring: Ring) -> None:
+    sizes: how large the variables are, by default by `variable_sizes`.  Each polynomial is scaled so that its
+    largest term is 1 where all variables have these sizes.
+    """
+
+    def __init__(
+        self, polynomials: Sequence[Polynomial], ring: Ring, sizes: Sequence[float] | None = None
+    ) -> None:
         names = ring.names
+        sizes = variable_sizes(ring, polynomials) if sizes is None else sizes
+        self.sizes: Vector = np.array(sizes, dtype=np.float64)
         self.size = len(names)
         self.count = len(polynomials)
         table: dict[tuple[int, ...], int] = {}
@@ -42,7 +58,7 @@ class Compiled:
         factors: list[float] = []
         for k, f in enumerate(polynomials):
             terms = [(tuple(map(int, m)), float(Fraction(int(c.p), int(c.q)))) for m, c in f.terms()]
-            scale = max((abs(c) for _, c in terms), default=1.0)
+            scale = largest_term(f, sizes) or 1.0
             for m, c in terms:
                 rows.append(k)
                 places.append(table.setdefault(m, len(table)))
@@ -80,16 +96,19 @@ class Compiled:
 
 
 def gauss_newton(system: Map, start: Vector, steps: int = 60) -> Vector | None:
-    """A point where the system is zero to rounding, near `start`, or `None`; steps are no longer than 1."""
-    x = np.array(start)
+    """A point where the system is zero to rounding, near `start`, or `None`.
+
+    Steps are no longer than 1 in variables over their sizes.
+    """
+    x, sizes = np.array(start), system.sizes
     for _ in range(steps):
         value, slope = system(x)
         if not np.all(np.isfinite(value)):
             return None
-        step = np.linalg.lstsq(slope, -value, rcond=1e-12)[0]
+        step = np.linalg.lstsq(slope * sizes, -value, rcond=1e-12)[0]
         length = float(np.linalg.norm(step))
-        x = x + step / max(1.0, length)
-        if length < 1e-13 * (1 + float(np.linalg.norm(x))):
+        x = x + sizes * step / max(1.0, length)
+        if length < 1e-13 * (1 + float(np.linalg.norm(x / sizes))):
             break
     value, _ = system(x)
     return x if float(np.max(np.abs(value), initial=0.0)) < 1e-9 else None
@@ -112,14 +131,14 @@ def approach(system: Compiled, starts: Vector, steps: int = 60) -> list[Vector]:
             before = sizes.copy()
         if not moving.size:
             break
-        value, slope = values[moving], slopes[moving]
+        value, slope = values[moving], slopes[moving] * system.sizes
         turned = slope.transpose(0, 2, 1)
         gram = slope @ turned
         damping = np.maximum(_DAMPING * sizes[moving], _LEAST_DAMPING * np.trace(gram, axis1=1, axis2=2))
         gram += (damping + np.finfo(float).tiny)[:, np.newaxis, np.newaxis] * np.eye(system.count)
         changes = (turned @ np.linalg.solve(gram, -value[:, :, np.newaxis]))[:, :, 0]
         lengths = np.linalg.norm(changes, axis=1, keepdims=True)
-        points[moving] += changes / np.maximum(1.0, lengths)
+        points[moving] += system.sizes * changes / np.maximum(1.0, lengths)
         values[moving], slopes[moving] = system.at(points[moving])
         sizes[moving] = np.sum(values[moving] ** 2, axis=1)
         moving = moving[sizes[moving] > _REACHED**2]
@@ -129,10 +148,11 @@ def approach(system: Compiled, starts: Vector, steps: int = 60) -> list[Vector]:
 def dependent_columns(slope: Vector, rank: int, first: Sequence[int]) -> list[int]:
     """Columns that the others determine, by pivoted orthogonalisation, those in `first` before others."""
     work = np.array(slope, dtype=np.float64)
+    least = 1e-9 * float(np.linalg.norm(work, axis=0).max(initial=0.0))
     chosen: list[int] = []
     for k in range(rank):
         norms = np.linalg.norm(work, axis=0)
-        candidates = [j for j in first if j not in chosen and norms[j] > 1e-9] if k < len(first) else []
+        candidates = [j for j in first if j not in chosen and norms[j] > least] if k < len(first) else []
         j = candidates[0] if candidates else int(np.argmax(norms))
         chosen.append(j)
         length = float(norms[j])

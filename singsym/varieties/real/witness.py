@@ -12,7 +12,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import chain
-from math import prod
+from math import floor, log, prod
 from typing import TYPE_CHECKING
 
 from singsym.elimination.attempts import attempt
@@ -196,11 +196,12 @@ def samples(system: RealSystem, equations: Sequence[Polynomial], seed: int, trie
     extended = replace(system, equations=tuple(equations)).with_slack
     wide = extended.ring
     compiled = Compiled(extended.equations, wide)
-    excluded = [Compiled(group, ring) for group in system.exclusions]
+    sizes = tuple(map(float, compiled.sizes[: len(ring.names)]))
+    excluded = [Compiled(group, ring, sizes) for group in system.exclusions]
     random = np.random.default_rng(seed)
     fixed = {ring.index(c.name): float((c.low + c.high) / 2) for c in ring.constants}
     for turn in range(tries):
-        start = random.normal(size=len(wide.names)) * (0.7, 1.5, 3.0, 8.0)[turn % 4]
+        start = random.normal(size=len(wide.names)) * (0.7, 1.5, 3.0, 8.0)[turn % 4] * compiled.sizes
         for k, value in fixed.items():
             start[k] = value
         x = gauss_newton(compiled, start) if compiled.count else start
@@ -238,13 +239,17 @@ def frozen_values(
     ring = system.ring
     compiled = Compiled(equations, ring)
     _, slope = compiled(sample)
+    slope = slope * compiled.sizes
     rank = numerical_rank(slope, 1e-7).rank if dimension is None else len(ring.names) - dimension
     dependent = dependent_columns(slope, rank, [ring.index(c.name) for c in ring.constants])
     free = [k for k in range(len(ring.names)) if k not in dependent]
     circles = [pair for pair in unit_circles(equations) if any(ring.index(name) in free for name in pair)]
     seen: set[tuple[Fraction, ...]] = set()
     for denominator in _DENOMINATORS:
-        values = {ring.names[k]: _rounded(float(sample[k]), denominator) for k in free}
+        values = {
+            ring.names[k]: _rounded(float(sample[k]), denominator / _grid(float(compiled.sizes[k])))
+            for k in free
+        }
         for pair in circles:
             c, s = (float(sample[ring.index(name)]) for name in pair)
             values |= dict(zip(pair, _on_circle(c, s, denominator), strict=True))
@@ -258,8 +263,17 @@ def frozen_values(
             yield values
 
 
-def _rounded(number: float, denominator: int) -> Fraction:
-    return Fraction(round(number * denominator), denominator)
+def _grid(size: float) -> Fraction:
+    """What counts as a whole number for a variable: 1 for sizes from 1/4 to 16, a power of 64 for others.
+
+    >>> _grid(3.0), _grid(1000.0), _grid(0.001)
+    (Fraction(1, 1), Fraction(64, 1), Fraction(1, 4096))
+    """
+    return Fraction(_DENOMINATORS[-1]) ** floor(log(4 * size, _DENOMINATORS[-1]))
+
+
+def _rounded(number: float, denominator: Fraction | int) -> Fraction:
+    return round(number * float(denominator)) / Fraction(denominator)
 
 
 def _on_circle(c: float, s: float, denominator: int) -> tuple[Fraction, Fraction]:
@@ -286,6 +300,7 @@ class _Restricted:
         values: Sequence[Fraction],
     ) -> None:
         self.compiled = compiled
+        self.sizes = compiled.sizes[list(dependent)]
         self.dependent = list(dependent)
         self.whole = sample.copy()
         for k, v in zip(free, values, strict=True):

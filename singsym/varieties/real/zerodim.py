@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from fractions import Fraction
 from itertools import islice
 from math import lcm
 from typing import Any
@@ -60,8 +59,8 @@ def real_points(
     """All real points of a zero-dimensional system, in increasing order of the coordinates.
 
     equations: an `Ideal`, or polynomials of one ring; the relations of the ring's constants are added, and
-    points with a conjugate of a constant are dropped.  Multiplicities are not told.  The space of no
-    variables is a point.
+    points with a conjugate of a constant are dropped.  Multiplicities are not told.  A ring without variables
+    has one point.
     Raises `NotZeroDimensional` where there are infinitely many complex points, `Undecided` out of budget.
 
     >>> from singsym.polynomials import Ring
@@ -69,17 +68,11 @@ def real_points(
     >>> [p.decimals(4) for p in real_points([x**2 + y**2 - 4, x - y])]
     [{'x': '-1.414', 'y': '-1.414'}, {'x': '1.414', 'y': '1.414'}]
     """
-    generators = equations.generators if isinstance(equations, Ideal) else tuple(equations)
-    if not generators and isinstance(equations, Ideal) and not equations.ring.names:
-        return (RealPoint(equations.ring, (0, 1), (1,), (), Fraction(0), Fraction(0)),)
-    if not generators:
-        raise NotZeroDimensional("no equations: the whole space")
-    ring = generators[0].ring
-    points = real_points_of(solve(generators, budget))
-    return tuple(p for p in points if pinned(p, ring.constants))
+    found = solve(equations, budget)
+    return tuple(p for p in real_points_of(found) if pinned(p, found.ring.constants))
 
 
-def solve(equations: Sequence[Polynomial], budget: Budget | None = None) -> Parametrization:
+def solve(equations: Ideal | Sequence[Polynomial], budget: Budget | None = None) -> Parametrization:
     """All complex points of a zero-dimensional system as functions of the roots of one polynomial.
 
     FLINT's basis first where it takes milliseconds, then msolve's parametrisation where it is there, then the
@@ -88,10 +81,16 @@ def solve(equations: Sequence[Polynomial], budget: Budget | None = None) -> Para
     missing is proven where `certainty` is "proven".
     """
     budget = current(budget)
-    ring = equations[0].ring.with_names(equations[0].ring.names, "degrevlex")
-    system = canonical(ring, (*map(ring.convert, equations), *ring.relations))
+    if not isinstance(equations, Ideal):
+        if not equations:
+            raise NotZeroDimensional("no equations: the whole space")
+        equations = Ideal(equations[0].ring, equations)
+    ring = equations.ring.with_names(equations.ring.names, "degrevlex")
+    system = canonical(ring, (*map(ring.convert, equations.generators), *ring.relations))
     if not system:
-        raise NotZeroDimensional("only zero equations: the whole space")
+        if ring.names:
+            raise NotZeroDimensional("only zero equations: the whole space")
+        return Parametrization(ring, fmpz_poly([0, 1]), fmpz_poly([1]), ())
     found = remember("points", (ring, frozenset(system)), lambda: _solve(ring, system, budget), budget)
     note(found.certainty)
     return found

@@ -12,10 +12,8 @@ from singsym.elimination.engines.registry import msolve, singular
 from singsym.elimination.memo import forget
 from singsym.polynomials import AlgebraicConstant, Polynomial, Ring
 from singsym.varieties.real import zerodim
-from singsym.varieties.real.emptiness import is_empty_over_reals
 from singsym.varieties.real.macaulay import quotient_algebra_over
 from singsym.varieties.real.parametrization import reconstruct
-from singsym.varieties.real.witness import RealSystem
 from singsym.varieties.real.zerodim import Ideal, NotZeroDimensional, real_points, solve
 
 R = Ring(("x", "y", "z"))
@@ -228,10 +226,18 @@ def test_reconstruction():
     assert [Fraction(n, found[1]) for n in found[0]] == numbers
 
 
-def test_a_space_of_no_variables_is_a_point() -> None:
-    ring = Ring(())
-    (point,) = real_points(Ideal(ring, ()))
-    assert (point.floats, point.sign(ring.one)) == ((), 1)
-    assert real_points(Ideal(ring, (ring.one,))) == ()
-    assert is_empty_over_reals(RealSystem(ring, (), positive=(ring.one,))).is_no
-    assert is_empty_over_reals(RealSystem(ring, (), positive=(-ring.one,))).is_yes
+def test_a_ring_without_variables_has_one_point():
+    """A point: without equations, or with 0 = 0, it solves; with 1 = 0 it does not."""
+    nowhere = Ring(())
+    for equations in (Ideal(nowhere), Ideal(nowhere, [nowhere.zero]), [nowhere.zero]):
+        (point,) = real_points(equations)
+        assert point.box == ()
+        assert point.sign(nowhere.one) == 1
+        assert point.sign(nowhere.zero) == 0
+    assert real_points([nowhere.one]) == ()
+
+
+def test_no_equations_in_a_ring_with_variables_are_refused():
+    for equations in (Ideal(R), [R.zero]):
+        with pytest.raises(NotZeroDimensional, match="whole space"):
+            real_points(equations)

@@ -1,0 +1,120 @@
+"""A mechanism in another unit of length, and a unit of its own.
+
+Source: dimensional analysis (textbook); the choice of the unit is singsym's own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from fractions import Fraction
+from math import gcd, lcm
+from statistics import median_low
+
+import sympy
+
+from singsym.mechanism.model import Exclusion, Joint, Limit, Link, Mechanism, Vector
+
+USUAL = 10
+"""In its own unit half of a mechanism's lengths at least are below this."""
+
+
+def own_unit(mechanism: Mechanism) -> Fraction:
+    """A length that grows with the mechanism: the greatest common divisor of its lengths times a power of 10.
+
+    Of a length such as 3*sqrt(2)/2 or 3*a/2 the rational coefficients count, 3/2: parameters without a value
+    are numbers.  The power is the least for which half of the coefficients, zeros aside, are below `USUAL`
+    units: lengths are then small whole numbers, or near 1.  A mechanism without lengths has the unit 1.
+
+    >>> from singsym.mechanism import load
+    >>> own_unit(load("fourbar")), own_unit(scaled(load("fourbar"), Fraction(700, 3)))
+    (Fraction(1, 2), Fraction(350, 3))
+    >>> own_unit(load("spherical-fourbar"))
+    Fraction(1, 1)
+    """
+    sizes = [abs(c) for length in _lengths(mechanism.resolved) for c in _coefficients(length)]
+    if not sizes:
+        return Fraction(1)
+    unit = Fraction(gcd(*(s.numerator for s in sizes)), lcm(*(s.denominator for s in sizes)))
+    while median_low(sizes) >= USUAL * unit:
+        unit *= 10
+    return unit
+
+
+def scaled(mechanism: Mechanism, factor: Fraction) -> Mechanism:
+    """The mechanism with all its lengths times a positive factor, its parameters put in.
+
+    Axes, angles and the ranges of parameters stay.
+
+    >>> from singsym.mechanism import load
+    >>> scaled(load("fourbar"), Fraction(1000)).link("AB").points["B"]
+    (1000, 0)
+    """
+    factor = sympy.Rational(factor.numerator, factor.denominator)
+    mechanism = mechanism.resolved
+    return replace(
+        mechanism,
+        links=tuple(_scaled_link(link, factor) for link in mechanism.links),
+        joints=tuple(_scaled_joint(joint, factor) for joint in mechanism.joints),
+        limits=tuple(_scaled_limit(limit, factor) for limit in mechanism.limits),
+        exclusions=tuple(_scaled_exclusion(exclusion, factor) for exclusion in mechanism.exclusions),
+    )
+
+
+def _lengths(mechanism: Mechanism) -> Iterator[sympy.Expr]:
+    """The lengths in a mechanism: coordinates of points, pitches, bounds of lengths."""
+    for link in mechanism.links:
+        for point in link.points.values():
+            yield from point
+    yield from (joint.pitch for joint in mechanism.joints if joint.pitch is not None)
+    for limit in mechanism.limits:
+        if _degree(limit.expression) == 1:
+            yield from (bound for bound in (limit.low, limit.high) if bound is not None)
+
+
+def _coefficients(length: sympy.Expr) -> Iterator[Fraction]:
+    """The rational coefficients other than zero of a sum."""
+    for term in sympy.Add.make_args(sympy.expand(length)):
+        coefficient = term.as_coeff_Mul(rational=True)[0]
+        if coefficient:
+            yield Fraction(int(coefficient.p), int(coefficient.q))
+
+
+def _scaled_link(link: Link, factor: sympy.Rational) -> Link:
+    points: dict[str, Vector] = {name: tuple(factor * x for x in p) for name, p in link.points.items()}
+    return replace(link, points=points)
+
+
+def _scaled_joint(joint: Joint, factor: sympy.Rational) -> Joint:
+    return joint if joint.pitch is None else replace(joint, pitch=factor * joint.pitch)
+
+
+def _scaled_limit(limit: Limit, factor: sympy.Rational) -> Limit:
+    power = factor ** _degree(limit.expression)
+    low, high = (None if bound is None else bound * power for bound in (limit.low, limit.high))
+    expression = _scaled_expression(limit.expression, factor)
+    return replace(limit, expression=expression, low=low, high=high)
+
+
+def _scaled_exclusion(exclusion: Exclusion, factor: sympy.Rational) -> Exclusion:
+    if exclusion.expression is None:
+        return exclusion
+    return replace(exclusion, expression=_scaled_expression(exclusion.expression, factor))
+
+
+def _scaled_expression(expression: sympy.Expr, factor: sympy.Rational) -> sympy.Expr:
+    """f^d E(x/f) for the lengths x in an expression of degree d in them: E itself where it is homogeneous."""
+    old = expression.xreplace({s: s / factor for s in _length_symbols(expression)})
+    return factor ** _degree(expression) * old
+
+
+def _length_symbols(expression: sympy.Expr) -> list[sympy.Symbol]:
+    """The symbols of a limit that are lengths: `A.x` of a point, `length(P)` of a slide."""
+    symbols = sorted(expression.free_symbols, key=str)
+    return [s for s in symbols if s.name.startswith("length(") or ("." in s.name and "(" not in s.name)]
+
+
+def _degree(expression: sympy.Expr) -> int:
+    """The degree of an expression in lengths."""
+    symbols = _length_symbols(expression)
+    return int(sympy.Poly(expression, *symbols).total_degree()) if symbols else 0
