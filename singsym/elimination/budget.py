@@ -9,6 +9,8 @@ import time
 from collections.abc import Callable
 from contextvars import ContextVar, Token
 
+from singsym.elimination.chaos import strikes
+
 
 class Undecided(Exception):
     """A computation ended without an answer; the message is the reason to report."""
@@ -37,7 +39,7 @@ class Budget:
     singsym.elimination.budget.BudgetExceeded: no time is left in the budget (a Groebner basis)
     """
 
-    __slots__ = ("_token", "cancelled", "deadline", "memory_mb", "seconds")
+    __slots__ = ("_is_attempt", "_token", "cancelled", "deadline", "memory_mb", "seconds")
 
     def __init__(
         self,
@@ -49,6 +51,7 @@ class Budget:
         self.memory_mb = memory_mb
         self.cancelled = cancelled
         self.deadline = None if seconds is None else time.monotonic() + seconds
+        self._is_attempt = False
         self._token: Token[Budget] | None = None
 
     def remaining(self) -> float | None:
@@ -64,14 +67,24 @@ class Budget:
             spent = used if self.seconds else "no time is left in the budget"
             raise BudgetExceeded(spent + (f" ({what})" if what else ""))
 
+    def ask(self, what: str) -> None:
+        """`check` at the door of an engine or of a proof; what `chaos` withholds looks the same."""
+        self.check(what)
+        if strikes():
+            raise BudgetExceeded(f"the budget of {self.seconds or 0:.3g} s is used up ({what})")
+
     def part(self, seconds: float | None = None, memory_mb: int | None = None) -> Budget:
         """A budget that ends with this one and has no more than so many seconds or megabytes."""
         left = self.remaining()
         limits = [s for s in (left, seconds) if s is not None]
         memory = [m for m in (self.memory_mb, memory_mb) if m is not None]
-        return Budget(min(limits, default=None), min(memory, default=None), self.cancelled)
+        found = Budget(min(limits, default=None), min(memory, default=None), self.cancelled)
+        found._is_attempt = seconds is not None
+        return found
 
     def __enter__(self) -> Budget:
+        if self._is_attempt and strikes():
+            raise BudgetExceeded(f"the budget of {self.seconds or 0:.3g} s is used up")
         self._token = _current.set(self)
         return self
 

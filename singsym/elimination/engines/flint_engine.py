@@ -36,6 +36,7 @@ class FlintEngine:
 
     def run(self, task: Task, budget: Budget) -> EngineAnswer:
         """The reduced Groebner basis in the ring's own order."""
+        budget.ask("FLINT")
         basis = self.tiny(task)
         return EngineAnswer((self.worker.groebner(task, budget) if basis is None else basis,), self.name)
 

@@ -130,7 +130,7 @@ class MsolveEngine:
         program = self.path()
         if not program:
             raise EngineUnavailable(f"msolve is not there: {HOW_TO_GET}")
-        budget.check("msolve")
+        budget.ask("msolve")
         header = ",".join(f"x{k}" for k in range(1, len(used) + 1))
         lines = ",\n".join(write(p, used, characteristic) for p in generators)
         with tempfile.TemporaryDirectory(prefix="singsym-") as directory:

@@ -121,6 +121,7 @@ def solve(task: Task, budget: Budget | None = None) -> EngineAnswer:
     Raises `EngineUnavailable` (nobody can), `BudgetExceeded`, or `EngineFailure` (all of them failed).
     """
     budget = current(budget)
+    budget.ask(task.kind)
     candidates = [_ENGINES[n] for n in allowed() if _ENGINES[n].can(task) and _ENGINES[n].available()]
     if not candidates:
         raise EngineUnavailable(

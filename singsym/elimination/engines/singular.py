@@ -74,6 +74,7 @@ class SingularEngine:
         used = used_variables(task.generators, task.others)
         if not used:
             raise EngineFailure(self.name, "was asked about constants")
+        budget.ask("Singular")
         library, command = _COMMANDS[task.kind]
         with self._lock:
             lines = self._converse(library, self._program_text(task, used, command), budget)

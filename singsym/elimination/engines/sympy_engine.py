@@ -30,6 +30,7 @@ class SympyEngine:
 
     def run(self, task: Task, budget: Budget) -> EngineAnswer:
         """The reduced Groebner basis in the ring's own order."""
+        budget.ask("SymPy")
         return EngineAnswer((self.worker.groebner(task, budget),), self.name)
 
     def version(self) -> str:

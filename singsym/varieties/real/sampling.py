@@ -5,6 +5,7 @@ Source: Gauss-Newton from random starts, see `search`.
 
 from __future__ import annotations
 
+from singsym.elimination.chaos import strikes
 from singsym.polynomials import Polynomial
 from singsym.varieties.real.witness import RealSystem
 
@@ -30,6 +31,8 @@ def numerical_points(system: RealSystem, count: int = 3) -> Points:
 
     from singsym.varieties.real.search import Compiled, approach, gauss_newton
 
+    if strikes():
+        return ()
     ring = system.ring
     extended = system.with_slack
     compiled = Compiled(extended.closed_equations, extended.ring)

@@ -15,6 +15,7 @@ from math import prod
 from typing import TYPE_CHECKING
 
 from singsym.elimination.budget import Budget, BudgetExceeded, Undecided, current
+from singsym.elimination.chaos import strikes
 from singsym.elimination.engines import EngineFailure
 from singsym.elimination.verdict import Certainty
 from singsym.polynomials import Polynomial, Ring
@@ -166,7 +167,7 @@ def find_witness(
     """
     budget = current(budget)
     equations = system.closed_equations
-    if any(f.is_constant for f in equations):
+    if strikes() or any(f.is_constant for f in equations):
         return None
     for sample in chain(_landed(equations, system.ring, near), samples(system, equations, seed, tries)):
         budget.check("the search for a real point")
