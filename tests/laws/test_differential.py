@@ -1,0 +1,45 @@
+"""Random and degenerate mechanisms: the exact classification against an independent numerical reference.
+
+Source: the definitions of section 2.2 of Zlatanov, Fenton, Benhabib (1998); see `reference`.  In every run of the
+tests a few mechanisms that nobody has seen; more, with more starts each, by
+
+    SINGSYM_RUNS=200 python -m pytest tests/laws/test_differential.py -n 2
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from singsym.classes.classify import Limits, classify
+from singsym.mechanism import dumps, load
+from tests.laws.draws import SEED, draw, runs
+from tests.laws.mechanisms import KINDS
+from tests.laws.reference.compare import disagreements, search
+from tests.laws.reference.model import model
+
+USUALLY = 8
+RUNS = runs(USUALLY)
+STARTS = 24 if RUNS <= USUALLY else 80
+LIMITS = Limits(seconds=5, total=20)
+
+
+@pytest.mark.parametrize("number", range(RUNS))
+def test_nothing_contradicts_the_reference(number: int) -> None:
+    """Empty classes are not found, no class is larger than said, its points are those found, witnesses have it."""
+    random = draw("differential", number)
+    kind = list(KINDS)[number % len(KINDS)]
+    mechanism = KINDS[kind](random)
+    result = classify(mechanism, cache=False, limits=LIMITS)
+    found = disagreements(result, random.randrange(10**6), STARTS)
+    assert not found, f"SINGSYM_SEED={SEED}\n{dumps(mechanism)}{found}"
+
+
+@pytest.mark.parametrize("name", ["parallelogram", "change-point", "spherical-fourbar", "rssr", "watt-six-bar"])
+def test_the_reference_finds_what_is_known(name: str) -> None:
+    """It is no good if it finds nothing: all points of these textbook linkages, from enough starts."""
+    mechanism = load(name)
+    result = classify(mechanism, cache=False)
+    seen = search(model(mechanism), np.random.default_rng(1), 60)
+    expected = {frozenset(c.types.names): c.points for c in result.classes if c.verdict.is_yes}
+    assert {kinds: len(known.marks) for kinds, known in seen.items() if kinds} == expected
