@@ -39,9 +39,7 @@ def contradictions(one: Answer, two: Answer, *, same_names: bool = True) -> list
 def _differing(name: str, one: Answer, two: Answer, fields: Iterable[str]) -> list[str]:
     pairs = [(field, one[field], two[field]) for field in fields]
     return [
-        f"{name}: {field} {x} and {y}"
-        for field, x, y in pairs
-        if x != y and not {x, y} & {None, "undecided"}
+        f"{name}: {field} {x} and {y}" for field, x, y in pairs if x != y and not {x, y} & {None, "undecided"}
     ]
 
 

@@ -15,7 +15,7 @@ SQUARE = [[0, 0], [1, 0], [1, 1], [0, 1]]
 
 
 def lengths(random: Random, count: int) -> list[int]:
-    """Side lengths of a polygon that closes: any, equal in pairs, all equal, or such that it just lies flat."""
+    """Side lengths of a polygon that closes: any, equal in pairs, all equal, or one that may lie flat."""
     while True:
         kind = random.choice(["any", "any", "rhombus", "kite", "parallelogram", "flat", "stretched"])
         found = [random.randint(1, 6) for _ in range(count)]
@@ -81,10 +81,20 @@ def six_bar(random: Random) -> Mechanism:
     h, d, e, f = lengths(random, 4)
     if random.random() < 0.5:
         ground = {"points": {"A": [0, 0], "D": [g, 0], "G": [g + h, 0]}}
-        links = {"ground": ground, "AB": a, "BC": b, "rocker": {"points": {"D": [0, 0], "C": [c, 0], "E": [0, d]}}}
+        links = {
+            "ground": ground,
+            "AB": a,
+            "BC": b,
+            "rocker": {"points": {"D": [0, 0], "C": [c, 0], "E": [0, d]}},
+        }
     else:
         ground = {"points": {"A": [0, 0], "D": [g, 0], "G": [h, random.randint(-3, 3)]}}
-        links = {"ground": ground, "AB": a, "CD": c, "coupler": {"points": {"B": [0, 0], "C": [b, 0], "E": [1, d]}}}
+        links = {
+            "ground": ground,
+            "AB": a,
+            "CD": c,
+            "coupler": {"points": {"B": [0, 0], "C": [b, 0], "E": [1, d]}},
+        }
     return table("six-bar", {**links, "EF": e, "FG": f}, "ABCDEFG", ["A"], {"rate": "G"})
 
 

@@ -1,7 +1,7 @@
 """Random and degenerate mechanisms: the exact classification against an independent numerical reference.
 
-Source: the definitions of section 2.2 of Zlatanov, Fenton, Benhabib (1998); see `reference`.  In every run of the
-tests a few mechanisms that nobody has seen; more, with more starts each, by
+Source: the definitions of section 2.2 of Zlatanov, Fenton, Benhabib (1998); see `reference`.  In every run of
+the tests a few mechanisms that nobody has seen; more, with more starts each, by
 
     SINGSYM_RUNS=200 python -m pytest tests/laws/test_differential.py -n 2
 """
@@ -26,7 +26,7 @@ LIMITS = Limits(seconds=5, total=20)
 
 @pytest.mark.parametrize("number", range(RUNS))
 def test_nothing_contradicts_the_reference(number: int) -> None:
-    """Empty classes are not found, no class is larger than said, its points are those found, witnesses have it."""
+    """Empty classes are not found, no class is larger than said, points and witnesses are right."""
     random = draw("differential", number)
     kind = list(KINDS)[number % len(KINDS)]
     mechanism = KINDS[kind](random)
@@ -35,7 +35,9 @@ def test_nothing_contradicts_the_reference(number: int) -> None:
     assert not found, f"SINGSYM_SEED={SEED}\n{dumps(mechanism)}{found}"
 
 
-@pytest.mark.parametrize("name", ["parallelogram", "change-point", "spherical-fourbar", "rssr", "watt-six-bar"])
+@pytest.mark.parametrize(
+    "name", ["parallelogram", "change-point", "spherical-fourbar", "rssr", "watt-six-bar"]
+)
 def test_the_reference_finds_what_is_known(name: str) -> None:
     """It is no good if it finds nothing: all points of these textbook linkages, from enough starts."""
     mechanism = load(name)

@@ -31,7 +31,7 @@ class Poses(NamedTuple):
 
 @dataclass(frozen=True)
 class Pair:
-    """A joint between bodies i and j, with its points and axes in their frames; `turned` for P: R_j in R_i."""
+    """A joint between bodies i and j, with points and axes in their frames; `turned`, for P: R_j in R_i."""
 
     name: str
     kind: str
@@ -46,7 +46,7 @@ class Pair:
 
 @dataclass(frozen=True)
 class Output:
-    """A linear function of velocities: rows of the twist of a body at a point of it, or of rates of joints."""
+    """A linear function of velocities: rows of the twist of a body at one of its points, or rates of joints."""
 
     body: int
     point: Array
@@ -177,7 +177,7 @@ def dot(e: Array, M: Array) -> Array:
 
 
 def _joint(b: _Bodies, k: Pair) -> tuple[list[Array], list[Array], list[Array]]:
-    """Residues (..., m), their derivatives (..., m, freedoms), and the rates (..., freedoms of joint, ...)."""
+    """Residues (..., m), their derivatives (..., m, freedoms), and the rates, likewise."""
     P, Q = b.at(k.i, k.p), b.at(k.j, k.q)
     u, v = b.along(k.i, k.u), b.along(k.j, k.v)
     away = Q - P

@@ -1,6 +1,7 @@
 """A classification against the reference: what contradicts it.
 
-Source: the definitions; see `reference`.  Numerics find and never conclude, so what they did not find is no fault.
+Source: the definitions; see `reference`.  Numerics find and never conclude, so what they did not find is no
+fault.
 """
 
 from __future__ import annotations
@@ -41,7 +42,7 @@ class Seen:
 
 
 def search(model: Model, random: np.random.Generator, starts: int, walks: int = 2) -> dict[Types, Seen]:
-    """The classes found from so many starts for each condition; configurations with unclear ranks are left."""
+    """The classes found from so many starts for each condition; those with unclear ranks are left."""
     seen: dict[Types, Seen] = defaultdict(Seen)
     begin = closed(model, starts, random)
     for condition in conditions(model) if len(begin.t) else []:
@@ -87,7 +88,7 @@ def marks(model: Model, poses: Poses) -> Array:
 def placed(
     model: Model, points: dict[str, Array], directions: dict[str, Array], random: np.random.Generator
 ) -> Poses | None:
-    """The configuration in which named points and axes are where they are said to be; None if none is found."""
+    """The configuration with named points and axes where they are said to be; None if none is found."""
     where = [(i, x, points[n] / model.unit) for n in points for i, x in _bearers(model.points, n)]
     along = [(i, x, directions[n]) for n in directions for i, x in _bearers(model.axes, n)]
 
@@ -124,14 +125,19 @@ def disagreements(result: Any, seed: int, starts: int = 200) -> list[str]:
     wrong: list[str] = []
     for c in result.classes:
         kinds = frozenset(c.types.names)
-        wrong += [f"{', '.join(c.types.names)}: {fault}" for fault in _faults(model, c, seen.get(kinds), result, random)]
+        wrong += [
+            f"{', '.join(c.types.names)}: {fault}"
+            for fault in _faults(model, c, seen.get(kinds), result, random)
+        ]
     return wrong
 
 
 def _faults(model: Model, c: Any, seen: Seen | None, result: Any, random: np.random.Generator) -> list[str]:
     wrong = []
     if c.verdict.is_no:
-        return [f"said to be empty, found at {seen.marks[0].round(6).tolist()}"] if seen and seen.marks else []
+        return (
+            [f"said to be empty, found at {seen.marks[0].round(6).tolist()}"] if seen and seen.marks else []
+        )
     if c.dimension is not None and seen and seen.dimension > c.dimension:
         wrong.append(f"dimension {c.dimension}, walked in {seen.dimension} directions")
     known = []

@@ -1,8 +1,8 @@
 """The four defects of a configuration, from the velocities that its joints allow.
 
-Source: Zlatanov, Fenton, Benhabib (1998), section 2.2.  With K the joint rates that close all loops, without idle
-spins, the kernels of L, L_I, L_O, L_p are K and its parts with inputs, outputs, both at rest; L has N + n columns,
-L_I and L_O N, L_p N - n: so delta = dim K - n, and k_I, k_O, p are the dimensions of those parts.
+Source: Zlatanov, Fenton, Benhabib (1998), section 2.2.  With K the joint rates that close all loops, without
+idle spins, the kernels of L, L_I, L_O, L_p are K and its parts with inputs, outputs, both at rest; L has N +
+n columns, L_I and L_O N, L_p N - n: so delta = dim K - n, and k_I, k_O, p are the dimensions of those parts.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Configurations by damped Gauss-Newton from many random starts; singular ones with the motion that shows it.
 
-Source: Levenberg (1944), Marquardt (1963).  A singular configuration is looked for together with vectors V in the
-kernel of a matrix M(q): C(q) = 0, M(q) V = 0, W V = 1 with random W, so that it is a regular solution where the
-kernel is no larger than it must be.
+Source: Levenberg (1944), Marquardt (1963).  A singular configuration is looked for together with vectors V in
+the kernel of a matrix M(q): C(q) = 0, M(q) V = 0, W V = 1 with random W, so that it is a regular solution
+where the kernel is no larger than it must be.
 """
 
 from __future__ import annotations
@@ -193,8 +193,8 @@ def local_dimension(
 ) -> int:
     """In how many independent directions one can walk on the solutions from one of them (a batch of one).
 
-    A tangent counts where a step along it, and one mixed with others, leads to a solution that is about as far
-    along it and the same in kind.
+    A tangent counts where a step along it, and one mixed with others, leads to a solution that is about as
+    far along it and the same in kind.
     """
     _, J = _equations(model, condition, solution)
     _, values, rows = np.linalg.svd(J[0], full_matrices=True)
@@ -209,9 +209,7 @@ def local_dimension(
     walked = 0
     for along, whole in directions:
         mixed = whole + 0.3 * sum(random.normal() * other for _, other in directions)
-        walked += all(
-            _leads_on(model, condition, solution, step * x, along, same) for x in (whole, mixed)
-        )
+        walked += all(_leads_on(model, condition, solution, step * x, along, same) for x in (whole, mixed))
     return walked
 
 
@@ -221,7 +219,9 @@ def _leads_on(
     end, good = solve(model, condition, _stepped(model, solution, x[None]), 40)
     wanted = x[: model.freedoms] @ along
     gone = _difference(model, solution.poses, end.poses) @ along
-    return bool(good[0]) and abs(gone - wanted) < 0.3 * abs(wanted) and same(Poses(*(y[0] for y in end.poses)))
+    return (
+        bool(good[0]) and abs(gone - wanted) < 0.3 * abs(wanted) and same(Poses(*(y[0] for y in end.poses)))
+    )
 
 
 def _difference(model: Model, one: Poses, two: Poses) -> Array:
