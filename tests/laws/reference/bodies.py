@@ -46,7 +46,7 @@ class Pair:
 
 @dataclass(frozen=True)
 class Output:
-    """A linear function of velocities: rows of the twist of a body at one of its points, or rates of joints."""
+    """A linear function of velocities: components of a body's twist at a point of it, or rates of joints."""
 
     body: int
     point: Array
@@ -59,8 +59,8 @@ class Model:
     """A mechanism in units of its own size; body 0 is the ground.
 
     points, axes: of each body, in its frame; excluded: points of bodies that must not coincide.
-    idle: bodies that hang by spherical joints at both ends of a line, with its direction: spins that count for
-        nothing.
+    idle: bodies that hang by spherical joints at both ends of a line, with its direction; their spins about
+        it count for nothing.
     """
 
     space: str
@@ -132,12 +132,14 @@ def across(u: Array) -> tuple[Array, Array]:
 
 
 class _Bodies:
-    """Points, directions and their velocities at poses."""
+    """Points, directions and their velocities at poses, for velocities V (..., freedoms, k) of all bodies."""
 
-    def __init__(self, model: Model, poses: Poses) -> None:
+    def __init__(self, model: Model, poses: Poses, V: Array | None = None) -> None:
         self.model, self.poses = model, poses
         self.shape = poses.t.shape[:-2]
-        self.width = model.basis.shape[1]
+        V = np.eye(model.freedoms) if V is None else V
+        self.count = V.shape[-1]
+        self.twists = V.reshape(*V.shape[:-2], -1, model.basis.shape[1], self.count)
 
     def at(self, body: int, point: Array) -> Array:
         return self.poses.t[..., body, :] + self.poses.R[..., body, :, :] @ point
@@ -146,19 +148,18 @@ class _Bodies:
         return np.asarray(self.poses.R[..., body, :, :] @ axis)
 
     def turning(self, body: int) -> Array:
-        """The angular velocity of a body, (..., 3, freedoms)."""
-        out = np.zeros((*self.shape, 3, self.model.freedoms))
-        if body:
-            out[..., (body - 1) * self.width : body * self.width] = self.model.basis[:3]
-        return out
+        """The angular velocity of a body, (..., 3, k)."""
+        if not body:
+            return np.zeros((*self.shape, 3, self.count))
+        own = self.model.basis[:3] @ self.twists[..., body - 1, :, :]
+        return np.broadcast_to(own, (*self.shape, 3, self.count))
 
     def moving(self, body: int, place: Array) -> Array:
         """The velocity of a body's point that is at a place."""
-        out = np.zeros((*self.shape, 3, self.model.freedoms))
-        if body:
-            own = self.model.basis[3:] - skew(place - self.poses.t[..., body, :]) @ self.model.basis[:3]
-            out[..., (body - 1) * self.width : body * self.width] = own
-        return out
+        if not body:
+            return np.zeros((*self.shape, 3, self.count))
+        own = self.model.basis[3:] - skew(place - self.poses.t[..., body, :]) @ self.model.basis[:3]
+        return np.asarray(own @ self.twists[..., body - 1, :, :])
 
 
 def at_point(model: Model, poses: Poses, body: int, x: Array, *, turning: bool) -> tuple[Array, Array]:
@@ -177,7 +178,7 @@ def dot(e: Array, M: Array) -> Array:
 
 
 def _joint(b: _Bodies, k: Pair) -> tuple[list[Array], list[Array], list[Array]]:
-    """Residues (..., m), their derivatives (..., m, freedoms), and the rates, likewise."""
+    """Residues (..., m), their derivatives (..., m, k), and the rates, likewise."""
     P, Q = b.at(k.i, k.p), b.at(k.j, k.q)
     u, v = b.along(k.i, k.u), b.along(k.j, k.v)
     away = Q - P
@@ -210,16 +211,16 @@ def _joint(b: _Bodies, k: Pair) -> tuple[list[Array], list[Array], list[Array]]:
     raise NotImplementedError(f"joint {k.kind}")
 
 
-def velocities(model: Model, poses: Poses) -> Velocities:
-    """What the joints ask of poses and of velocities."""
-    b = _Bodies(model, poses)
+def velocities(model: Model, poses: Poses, V: Array | None = None) -> Velocities:
+    """What the joints ask of poses and of velocities; the linear functions of V, where it is given."""
+    b = _Bodies(model, poses, V)
     residues: list[Array] = []
     rows: list[Array] = []
     rates: list[Array] = []
     for pair in model.pairs:
         found = _joint(b, pair)
         residues, rows, rates = residues + found[0], rows + found[1], rates + found[2]
-    zero = np.zeros((*b.shape, 0, model.freedoms))
+    zero = np.zeros((*b.shape, 0, b.count))
     omega = np.concatenate([zero, *rates], axis=-2)
     out = [zero]
     for output in model.outputs:

@@ -53,9 +53,9 @@ def clear(M: Array, tolerance: float = TOLERANCE) -> bool:
     return not near.any()
 
 
-def motions(model: Model, poses: Poses) -> tuple[Array, Array, Array]:
-    """Of all velocities of the bodies: what joints forbid (idle spins too), what outputs and inputs show."""
-    found = velocities(model, poses)
+def motions(model: Model, poses: Poses, V: Array | None = None) -> tuple[Array, Array, Array]:
+    """Of all velocities, or of V: what joints forbid (idle spins too), outputs and inputs show."""
+    found = velocities(model, poses, V)
     return np.concatenate([found.C, found.idle], axis=-2), found.T, found.A
 
 

@@ -15,8 +15,8 @@ import numpy as np
 from tests.laws.reference.bodies import Array, Model, Poses, moved, rotation, velocities
 from tests.laws.reference.defects import motions
 
-STEP = 1e-5
-"""Of the differences that stand for derivatives of M(q) V: central ones, exact to the square of it."""
+STEP = 1e-7
+"""Of the differences that stand for derivatives of M(q) V: Gauss-Newton's steps are exact to that."""
 
 
 def random_poses(model: Model, count: int, random: np.random.Generator) -> Poses:
@@ -42,8 +42,9 @@ class Condition:
     size: int = 0
     also: Callable[[Poses], tuple[Array, Array]] | None = None
 
-    def matrix(self, model: Model, poses: Poses) -> Array:
-        C, T, A = motions(model, poses)
+    def matrix(self, model: Model, poses: Poses, V: Array | None = None) -> Array:
+        """M(q), or M(q) V."""
+        C, T, A = motions(model, poses, V)
         return np.concatenate([C, *([T] if self.outputs else []), *([A] if self.inputs else [])], axis=-2)
 
 
@@ -93,13 +94,12 @@ def _equations(model: Model, condition: Condition, batch: Batch) -> tuple[Array,
     if not size:
         return r, J
     M = condition.matrix(model, batch.poses)
-    shifts = STEP * np.concatenate([np.eye(freedoms), -np.eye(freedoms)])
     wide = Poses(batch.poses.R[:, None], batch.poses.t[:, None])
-    shifted = condition.matrix(model, moved(model, wide, np.broadcast_to(shifts, (count, *shifts.shape))))
-    products = shifted @ batch.V[:, None]
-    slopes = (products[:, :freedoms] - products[:, freedoms:]) / (2 * STEP)
+    shifts = np.broadcast_to(STEP * np.eye(freedoms), (count, freedoms, freedoms))
+    product = M @ batch.V
+    slopes = (condition.matrix(model, moved(model, wide, shifts), batch.V[:, None]) - product[:, None]) / STEP
     m = M.shape[1]
-    MV = (M @ batch.V).swapaxes(1, 2).reshape(count, -1)
+    MV = product.swapaxes(1, 2).reshape(count, -1)
     by_q = slopes.transpose(0, 3, 2, 1).reshape(count, size * m, freedoms)
     by_V = np.zeros((count, size, m, size, freedoms))
     form = (batch.W @ batch.V - np.eye(size)).swapaxes(1, 2).reshape(count, -1)
