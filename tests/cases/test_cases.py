@@ -256,6 +256,34 @@ def test_whether_a_space_is_smooth_may_depend_on_a_value() -> None:
     assert {s.smooth for s in fixed.configuration_space} == {"no"}
 
 
+# -- numbers that were left open --------------------------------------------------------------------------
+
+
+def test_two_circles_on_which_both_rods_turn_alike() -> None:
+    """Rods BC = CD = 1 between guides along x and y; outputs are C's rate and its vertical velocity.
+
+    With both outputs at rest both rods turn at one rate w, not 0, and C's vertical velocity is w (C.x - B.x):
+    so C is above or below B, C = (p, +-1), and |CD| = 1 is p^2 + (s -+ 1)^2 = 1: two circles of (RI, IO).
+    """
+    still = classified("prrrp-joint-rate").of(STILL)
+    assert still.verdict.is_yes
+    assert (still.dimension, still.components) == (1, 2)
+    for w in still.witnesses:
+        assert float(w.points["C.x"]) == pytest.approx(float(w.points["B.x"]), abs=1e-9)
+
+
+@pytest.mark.slow
+def test_a_six_bar_linkage_with_square_roots() -> None:
+    """Stephenson's linkage with lengths such as sqrt 2 and sqrt 7: 4 and 6 dead centres, and no other class.
+
+    By the numerical reference of `tests/laws`, from 60 starts for each condition; a scan of the crank angle
+    gives the same.
+    """
+    result = classify(case("stephenson-square-roots"), cache=False)
+    assert occurring(result) == {STILL: 0, DEAD: 0}
+    assert (result.of(STILL).points, result.of(DEAD).points) == (4, 6)
+
+
 # -- arms and over-constrained chains --------------------------------------------------------------------
 
 

@@ -52,6 +52,7 @@ SLOW = {
     "delta-guided-rational",
     "scissor",
     "spherical-3rrr-60",
+    "stephenson-square-roots",
 }
 """Cases that do: only where many runs are asked for."""
 USUALLY, EACH = 40, 5
