@@ -20,7 +20,7 @@ def contradictions(one: Answer, two: Answer, *, same_names: bool = True) -> list
     found = []
     for first, second in zip(one["classes"], two["classes"], strict=True):
         name = ", ".join(first["types"])
-        assert first["types"] == second["types"]
+        assert name == ", ".join(second["types"])
         found += _differing(name, first, second, ("verdict", "dimension", "points", "components"))
     for label in ("4", "5"):
         first, second = _union(one["loci"], label), _union(two["loci"], label)
