@@ -1,7 +1,7 @@
 """The gallery: every class somewhere, and each mechanism against an independent route.
 
 The independent route: configurations sampled on the loops in floats with the singular values of L, and closed
-forms where they are known.  Planar linkages by intersecting circles: `tests/laws`.
+forms where they are known.  Random mechanisms, against a numerical reference: `tests/laws`.
 """
 
 from __future__ import annotations
