@@ -13,16 +13,17 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from singsym.classes.cache import user_cache
+from singsym.classes.curves import Counted, CurveTask, count
 from singsym.classes.explore import Branch, Found
 from singsym.classes.extent import EMPTY, Extent, union
 from singsym.classes.processes import processes
-from singsym.classes.realise import Counted, CurveTask, Names, Realised, RealTask, count, realise
+from singsym.classes.realise import Names, Realised, RealTask, realise
 from singsym.classes.result import Classification, ClassResult, Locus, Piece, conditions_latex
 from singsym.classes.search import Exploration, Loci, SingularLoci, search
 from singsym.classes.space import configuration_space
 from singsym.classes.steps import excluded_in, found_in
 from singsym.classes.strata import RankProblem, Stratum
-from singsym.classes.symmetry import reflections
+from singsym.classes.symmetry import image, reflections
 from singsym.classes.types import Defects, SingularityClass, SingularityType, feasible_classes
 from singsym.classes.units import Border
 from singsym.classes.work import Runner
@@ -37,7 +38,8 @@ from singsym.varieties.real.witness import RealSystem
 
 FIRST_SECONDS, SECOND_SECONDS = 1.0, 5.0
 """So long each stratum is looked at before it is known whether more time is worth while."""
-NOT_COUNTED = "components are not counted within inequalities"
+MOST_FREEDOMS = 2
+NOT_COUNTED = f"components of curves are counted for n <= {MOST_FREEDOMS}, and not within inequalities"
 BOUND_SECONDS = 30.0
 """So long one is looked at last of which only a larger dimension would matter."""
 
@@ -163,8 +165,8 @@ class _Work:
             memory_mb=self.limits.memory_mb,
         )
         explored = search(root, self.runner, self._singular_loci(), Budget(self.limits.total))
-        pieces = self._with_components(self._pieces(explored.found))
-        loci = self._loci(pieces)
+        pieces = self._with_components(explored.found, self._pieces(explored.found))
+        loci = self._loci(explored, pieces)
         classes = self._classes(explored, pieces)
         return Classification(
             self.mechanism,
@@ -237,16 +239,34 @@ class _Work:
 
     # -- loci ----------------------------------------------------------------------------------------
 
-    def _loci(self, pieces: Sequence[Piece]) -> tuple[Locus, ...]:
-        """The real zeros of each factor of (4) and (5) on the configuration space, whatever their class."""
+    def _loci(self, explored: Exploration, pieces: Sequence[Piece]) -> tuple[Locus, ...]:
+        """The real zeros of each factor of (4) and (5) on the configuration space, whatever their class.
+
+        They are bounded by all singular strata together, where these are all found.
+        """
         factors = [(label, factor) for label in ("4", "5") for factor in self.conditions[label].factors]
-        tasks = [self._task(self._whole(factor), None) for _, factor in factors]
-        whole = self.runner.map(realise, tasks, "loci")
-        curves = [i for i, found in enumerate(whole) if found.pieces[0].dimension == 1 and self._counting]
-        counted = dict(zip(curves, self._count([whole[i].pieces[0] for i in curves]), strict=True))
+        singular = union((p.extent for p in pieces if p.defects.types), explored.doubts_of_any)
+        known = [_largest_inside(factor, pieces) for _, factor in factors]
+        bounded = [
+            self.equation.n > 1 and piece is not None and piece.extent.at_least == singular.dimension
+            for piece in known
+        ]
+        left = [i for i, done in enumerate(bounded) if not done]
+        tasks = [self._task(self._whole(factors[i][1]), None) for i in left]
+        whole = dict(zip(left, self.runner.map(realise, tasks, "loci"), strict=True))
+        found = []
+        for i, piece in enumerate(known):
+            if piece is None or not bounded[i]:
+                found.append(_at_least(whole[i].pieces[0], piece))
+            else:
+                found.append(replace(piece, extent=singular, points=None, components=None))
+        curves = [i for i, piece in enumerate(found) if piece.dimension == 1 and self._counting]
+        equations = self.equation.space.equations
+        counted = self._count([CurveTask(((*equations, factors[i][1].polynomial),), ((),)) for i in curves])
+        numbers = dict(zip(curves, counted, strict=True))
         return tuple(
-            _locus(label, factor, _at_least(found.pieces[0], pieces), counted.get(i), self._counting)
-            for i, ((label, factor), found) in enumerate(zip(factors, whole, strict=True))
+            _locus(label, factor, found[i], numbers.get(i), self._counting)
+            for i, (label, factor) in enumerate(factors)
         )
 
     def _whole(self, factor: Factor) -> Found:
@@ -256,39 +276,45 @@ class _Work:
     @property
     def _counting(self) -> bool:
         """Whether connected components of curves are counted."""
-        return not (self.equation.space.nonnegative or self.equation.space.positive)
+        space = self.equation.space
+        return self.equation.n <= MOST_FREEDOMS and not (space.nonnegative or space.positive)
 
-    def _count(self, pieces: Sequence[Piece]) -> list[Counted]:
+    def _count(self, tasks: Sequence[CurveTask]) -> list[Counted]:
         """The connected components of curves, closed up."""
-        space, limits = self.equation.space, self.limits
-        tasks = [
-            CurveTask(p.basis, (*space.exclusions, *p.exclusions), limits.seconds, limits.memory_mb)
-            for p in pieces
-        ]
-        return self.runner.map(count, tasks, "curves")
+        limits = self.limits
+        limited = [replace(t, seconds=limits.seconds, memory_mb=limits.memory_mb) for t in tasks]
+        return self.runner.map(count, limited, "curves")
 
     # -- classes -------------------------------------------------------------------------------------
 
-    def _with_components(self, realised: Sequence[Realised]) -> list[Piece]:
+    def _with_components(self, found: Sequence[Found], realised: Sequence[Realised]) -> list[Piece]:
         """All pieces; the curves of classes that are curves with their numbers of components."""
-        if not self._counting:
-            return [piece for part in realised for piece in part.pieces]
         known = _dimensions(piece for part in realised for piece in part.pieces)
         curves = [
             i
             for i, part in enumerate(realised)
-            if part.pieces and part.pieces[0].dimension == 1 and known[part.pieces[0].defects.types] == 1
+            if self._counting and part.pieces and part.pieces[0].dimension == 1
+            if (types := part.pieces[0].defects.types) and known[types] == 1
         ]
-        # images have as many components
-        counted = dict(zip(curves, self._count([realised[i].pieces[0] for i in curves]), strict=True))
+        tasks = [self._curve(found[i], realised[i]) for i in curves]
+        counted = dict(zip(curves, self._count(tasks), strict=True))
         pieces: list[Piece] = []
         for i, part in enumerate(realised):
-            number = counted.get(i)
-            for piece in part.pieces:
-                if number is not None:
-                    piece = replace(piece, components=number.components, uncounted=number.reason)
+            number = counted.get(i, Counted(None))
+            for k, piece in enumerate(part.pieces):
+                if number.components is not None:
+                    piece = replace(piece, components=number.components[k])
+                elif number.reason:
+                    piece = replace(piece, uncounted=number.reason, countable=number.open)
                 pieces.append(piece)
         return pieces
+
+    def _curve(self, found: Found, part: Realised) -> CurveTask:
+        """A stratum that is a curve, and its images, off what other strata of the same types have."""
+        elsewhere = [tuple(image(locus, r) for locus in found.stratum.elsewhere) for r in found.images]
+        own = self.equation.space.exclusions
+        exclusions = ((*own, *p.exclusions, *e) for p, e in zip(part.pieces, elsewhere, strict=True))
+        return CurveTask(tuple(p.basis for p in part.pieces), tuple(exclusions))
 
     def _classes(self, explored: Exploration, pieces: Sequence[Piece]) -> tuple[ClassResult, ...]:
         occurring = {p.defects.types for p in pieces if p.verdict.is_yes}
@@ -319,13 +345,15 @@ def _class(
     extent = union((p.extent for p in own if not p.verdict.is_no), unexplored)
     known = explored.certainty_of(candidate.types)
     points = components = None
-    uncounted = ""
+    uncounted = remark = ""
     if present:
         certainty = present[0].verdict.certainty
         verdict = Verdict.yes(certainty, reason=_reservations(extent, known))
         steps: tuple[str, ...] = (found_in(candidate.types),)
-        if counting or extent.dimension == 0:
-            points, components, uncounted = _counts(extent, own)
+        if extent.dimension == 0 or (counting and extent.dimension == 1):
+            points, components, uncounted, remark = _counts(extent, own)
+        elif extent.dimension == 1:
+            remark = NOT_COUNTED
     elif unexplored or any(p.verdict.is_undecided for p in own):
         reasons = [*(p.verdict.reason for p in own if p.verdict.is_undecided), *unexplored]
         verdict = Verdict.undecided("; ".join(dict.fromkeys(reasons)))
@@ -345,41 +373,47 @@ def _class(
         steps,
         conditions_latex(present),
         uncounted,
-        "" if counting or extent.dimension != 1 else NOT_COUNTED,
+        remark,
     )
 
 
-def _counts(extent: Extent, pieces: Sequence[Piece]) -> tuple[int | None, int | None, str]:
-    """Points and connected components of a class, or why they are not known.
+def _counts(extent: Extent, pieces: Sequence[Piece]) -> tuple[int | None, int | None, str, str]:
+    """Points and connected components of a class; or why not, if a larger budget could help, and if not.
 
     Points of a curve's class that are on no curve of it are components too.
     """
-    if extent.dimension not in (0, 1):
-        return None, None, ""
     own = [p for p in pieces if not p.verdict.is_no]
-    reasons = [p.verdict.reason for p in own if p.verdict.is_undecided]
-    reasons += [p.uncounted or p.extent.open for p in own if p.verdict.is_yes and p.components is None]
-    if reasons:
-        said = "; ".join(dict.fromkeys(filter(None, reasons)))
-        return None, None, f"not counted: {said or 'no reason is known'}"
+    left = [p for p in own if p.verdict.is_undecided or p.components is None]
+    if left:
+        reasons = dict.fromkeys(p.uncounted or p.extent.open or p.verdict.reason for p in left)
+        said = f"not counted: {'; '.join(reasons)}"
+        return (None, None, said, "") if any(p.countable for p in left) else (None, None, "", said)
     total = sum(p.components or 0 for p in own)
-    return (total if extent.dimension == 0 else None), total, ""
+    return (total if extent.dimension == 0 else None), total, "", ""
 
 
-def _at_least(whole: Piece, pieces: Sequence[Piece]) -> Piece:
-    """A locus of which strata inside it may show more than it shows by itself."""
-    inside = [p for p in pieces if whole.path[0] in p.path and p.verdict.is_yes]
-    best = max(inside, key=lambda p: p.extent.at_least, default=None)
-    if best is None or best.extent.at_least <= whole.extent.at_least:
+def _largest_inside(factor: Factor, pieces: Sequence[Piece]) -> Piece | None:
+    """The largest stratum on whose way down a factor was set to zero, if one is known to have a point."""
+    inside = [p for p in pieces if factor.polynomial in p.path and p.verdict.is_yes]
+    return max(inside, key=lambda p: p.extent.at_least, default=None)
+
+
+def _at_least(whole: Piece, inside: Piece | None) -> Piece:
+    """A locus of which a stratum inside may show more than it shows by itself."""
+    if inside is None or inside.extent.at_least <= whole.extent.at_least:
         return whole
-    extent = replace(whole.extent, at_least=best.extent.at_least)
-    return replace(whole, verdict=best.verdict, extent=extent, witnesses=best.witnesses)
+    extent = replace(whole.extent, at_least=inside.extent.at_least)
+    return replace(whole, verdict=inside.verdict, extent=extent, witnesses=inside.witnesses)
 
 
 def _locus(label: str, factor: Factor, piece: Piece, counted: Counted | None, counting: bool) -> Locus:
-    components, uncounted = piece.components, piece.extent.open
+    components, reason, is_open = piece.components, piece.extent.open, True
     if counted is not None:
-        components, uncounted = counted.components, counted.reason
+        components = None if counted.components is None else counted.components[0]
+        reason, is_open = counted.reason, counted.open
+    elif piece.dimension == 1 and not counting:
+        reason, is_open = NOT_COUNTED, False
+    reason = "" if components is not None else reason
     return Locus(
         label,
         factor.polynomial,
@@ -389,8 +423,8 @@ def _locus(label: str, factor: Factor, piece: Piece, counted: Counted | None, co
         piece.extent,
         components,
         piece.points,
-        "" if components is not None else uncounted,
-        "" if counting or piece.dimension != 1 else NOT_COUNTED,
+        reason if is_open else "",
+        "" if is_open else reason,
     )
 
 

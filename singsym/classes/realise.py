@@ -23,15 +23,12 @@ from singsym.classes.strata import Stratum
 from singsym.classes.symmetry import image
 from singsym.elimination.attempts import attempt
 from singsym.elimination.budget import Budget, Undecided
-from singsym.elimination.ideal import Ideal
 from singsym.elimination.verdict import Certainty, Verdict, certainties, weakest
 from singsym.kinematics.placement import Coordinates, JointValue
 from singsym.polynomials import Polynomial
 from singsym.varieties.real.box import BoxPoint
 from singsym.varieties.real.cartesian import Cartesian
 from singsym.varieties.real.critical import sample_points
-from singsym.varieties.real.curve import real_curve
-from singsym.varieties.real.curve_equations import NotACurve
 from singsym.varieties.real.cuts import Cut, dimension_by_cuts
 from singsym.varieties.real.dimension import component_dimension, independent, real_dimension
 from singsym.varieties.real.intervals import at_precision, evaluate
@@ -78,33 +75,6 @@ class RealTask:
     def unfinished(self, reason: str) -> Realised:
         """A piece for each image of the stratum, undecided for this reason."""
         return Realised(tuple(_images(_piece(self, reason), (), self)))
-
-
-@dataclass(frozen=True)
-class CurveTask:
-    """A curve off some exclusions whose connected components, closed up, are to be counted."""
-
-    equations: Equations
-    exclusions: tuple[Equations, ...] = ()
-    seconds: float | None = None
-    memory_mb: int | None = None
-
-    def unfinished(self, reason: str) -> Counted:
-        """No number, for this reason."""
-        return Counted(None, reason)
-
-
-@dataclass(frozen=True)
-class Counted:
-    """The number of connected components, or None with the reason."""
-
-    components: int | None
-    reason: str = ""
-
-    @property
-    def provisional(self) -> bool:
-        """Whether a larger budget could say more."""
-        return self.components is None
 
 
 @dataclass(frozen=True)
@@ -333,33 +303,6 @@ def _counted(
 
 def _sum_of_squares(group: Equations) -> Polynomial:
     return group[0] if len(group) == 1 else sum((g * g for g in group), start=group[0].ring.zero)
-
-
-def count(task: CurveTask) -> Counted:
-    """The connected components of a real curve, closed up: the task that workers run.
-
-    What of it lies in the exclusions as a whole is left out; on the rest these are finitely many points, that
-    are left in, but not where they are components by themselves.
-    They are not counted where the complex zeros are no curve, as of x^2 + y^2 = 0 in space.
-    """
-    try:
-        with Budget(work=task.seconds, memory_mb=task.memory_mb):
-            curve = real_curve(_off_whole_parts(task))
-            if curve.verdict.is_undecided:
-                return Counted(None, curve.verdict.reason)
-            alone = sum(_lies_in(point, task.exclusions) for point in curve.isolated_points)
-            return Counted(curve.connected_components - alone)
-    except (NotACurve, Undecided) as reason:
-        return Counted(None, str(reason))
-
-
-def _off_whole_parts(task: CurveTask) -> Ideal:
-    """The curve without the components on which all polynomials of an exclusion vanish."""
-    ideal = Ideal(task.equations[0].ring, task.equations)
-    for group in task.exclusions:
-        if (ideal + Ideal(ideal.ring, group)).dimension > 0:
-            ideal = ideal.saturate(Ideal(ideal.ring, group))
-    return ideal
 
 
 # -- configurations ----------------------------------------------------------------------------------

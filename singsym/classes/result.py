@@ -56,7 +56,7 @@ class Piece:
     basis: generators of the ideal of the piece, loop equations included.
     extent: its real dimension.
     points: the number of real points of a finite piece; components: connected components where known;
-    uncounted: why those of a curve are not known.
+    uncounted: why those of a curve are not known; countable: whether a larger budget could say more.
     """
 
     path: Equations
@@ -69,6 +69,7 @@ class Piece:
     components: int | None = None
     witnesses: tuple[Configuration, ...] = ()
     uncounted: str = ""
+    countable: bool = True
 
     @property
     def dimension(self) -> int | None:

@@ -44,11 +44,14 @@ class Exploration:
             return "proven"
         return weakest(self.certainty, "modular" if types in self.modular else "proven")
 
+    @property
+    def doubts_of_any(self) -> tuple[str, ...]:
+        """Why there may be more strata than were found."""
+        return tuple(dict.fromkeys(reason for _, reason in self.unexplored))
+
     def doubts(self, types: SingularityType) -> tuple[str, ...]:
         """Why there may be more configurations of these types than were found."""
-        if types in self.evident:
-            return ()
-        return tuple(dict.fromkeys(reason for _, reason in self.unexplored))
+        return () if types in self.evident else self.doubts_of_any
 
 
 Loci = tuple[Equations, ...]

@@ -25,6 +25,9 @@ from singsym.varieties.real.zerodim import NotZeroDimensional, real_points
 
 Row = tuple[Polynomial, ...]
 
+_LONGEST_FACTORED = 2000
+"""Polynomials with more terms are not factored."""
+
 
 @dataclass(frozen=True)
 class Samples:
@@ -119,12 +122,17 @@ def _critical_points(
         return None
     found: list[RealPoint] = []
     try:
-        for factor, _ in critical.factors():
+        for factor in _split(critical):
             budget.check("critical points of a curve")
             found.extend(real_points((*equations, factor), budget))
     except NotZeroDimensional:
         return None
     return tuple(found)
+
+
+def _split(critical: Polynomial) -> list[Polynomial]:
+    """The factors of a polynomial, but not where they would be long to find."""
+    return [critical] if len(critical) > _LONGEST_FACTORED else [f for f, _ in critical.factors()]
 
 
 def _objectives(ring: Ring, gradients: Sequence[Row], bounded: bool, rng: Random) -> Iterator[Polynomial]:
@@ -134,8 +142,8 @@ def _objectives(ring: Ring, gradients: Sequence[Row], bounded: bool, rng: Random
         for name in ring.names:
             critical = critical_determinant(gradients, ring.gen(name), rng)
             if critical:
-                factors = critical.factors()
-                cost = max((f.total_degree for f, _ in factors), default=0), sum(len(f) for f, _ in factors)
+                factors = _split(critical)
+                cost = max((f.total_degree for f in factors), default=0), sum(map(len, factors))
                 ranked.append((cost, name))
         for _, name in sorted(ranked)[:4]:
             yield ring.gen(name)
