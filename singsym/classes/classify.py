@@ -21,6 +21,7 @@ from singsym.classes.conclusions import (
     locus_of,
     with_numbers,
 )
+from singsym.classes.coordinates import local_coordinates
 from singsym.classes.curves import Counted, CurveTask, count
 from singsym.classes.explore import Branch, Found
 from singsym.classes.extent import union
@@ -203,10 +204,12 @@ class _Work:
         Lemma: a configuration that moves along a set of dimension d has as many independent motions, which
         are n + delta at most, as every motion of the links moves a joint; and parameters may vary.
         """
-        most = None
-        if self.mechanism is not None and delta is not None:
-            most = self.equation.n + delta + len(self.equation.space.parameters)
-        return RealTask(found, self.feasible, self.names, self.limits.seconds, self.limits.memory_mb, most)
+        task = RealTask(found, self.feasible, self.names, self.limits.seconds, self.limits.memory_mb)
+        if self.mechanism is None or delta is None:
+            return task
+        most = self.equation.n + delta + len(self.equation.space.parameters)
+        coordinates = local_coordinates(self.mechanism, self.equation, found.stratum.defects.types)
+        return replace(task, most=most, coordinates=coordinates)
 
     def _look_again(
         self, tasks: Sequence[RealTask], realised: list[Realised], seconds: float | None, stage: str
