@@ -19,6 +19,7 @@ from math import comb, prod
 from singsym.classes.patches import Patch, is_combination
 from singsym.classes.types import Defects, SingularityType
 from singsym.elimination import engines
+from singsym.elimination.attempts import attempt
 from singsym.elimination.budget import Undecided
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.verdict import unnoted, weakest
@@ -29,7 +30,7 @@ from singsym.minors.determinant import determinant
 from singsym.minors.factored import factored
 from singsym.minors.rank import alternatives, simplest_blocks
 from singsym.polynomials import Polynomial, PolynomialMatrix
-from singsym.varieties.decomposition import Component
+from singsym.varieties.decomposition import Component, decompose
 from singsym.varieties.real.cartesian import Cartesian
 from singsym.varieties.real.intervals import pivots
 from singsym.varieties.real.sampling import Points, is_large
@@ -37,6 +38,8 @@ from singsym.varieties.real.witness import RealSystem
 
 MEMBERSHIP_SECONDS = 2.0
 """So long a Groebner basis of a patch as a whole is waited for, to prove that minors vanish on it."""
+IRREDUCIBLE_SECONDS = 3.0
+"""So long it is waited for that a patch is proven irreducible."""
 ALL_MINORS = 24
 """Up to this many minors of a block, its rank locus is written with all of them."""
 EASY_MINORS = 24
@@ -136,10 +139,17 @@ class Ground:
         """
         if self.component is not None:
             return self.component.prime and not self.component.ideal.contains(polynomial)
-        left, rest = self.patch.restrict(polynomial), self.patch.rest
-        if len(rest) > 1 or any(f.factors() != [(f.primitive(), 1)] for f in rest):
-            return False
-        return bool(left) and all(left.gcd(f).is_constant for f in rest)
+        left = self.patch.restrict(polynomial)
+        return bool(left) and self._prime is not None and not self._prime.contains(left)
+
+    @cached_property
+    def _prime(self) -> Ideal | None:
+        """The ideal of the patch in the variables that are not solved for, where it is soon proven prime."""
+        with attempt("whether a part is irreducible", IRREDUCIBLE_SECONDS), unnoted() as seen:
+            components = decompose(self.patch.rest, ring=self.patch.ring)
+            if len(components) == 1 and components[0].prime and weakest(*seen) == "proven":
+                return components[0].ideal
+        return None
 
     def certifier(self, feasible: RealSystem, loci: Iterable[tuple[Polynomial, ...]]) -> Certifier:
         """What is known of signs and zeros on the ground off the exclusions and off some loci."""

@@ -55,10 +55,10 @@ def largest_term(polynomial: Polynomial, sizes: Sequence[float]) -> float:
     >>> largest_term(3 * x**2 - 100 * y, (10.0, 1.0))
     300.0
     """
-    return max(
-        (
-            abs(int(c.p)) / int(c.q) * prod(s ** int(e) for s, e in zip(sizes, m, strict=True) if e)
-            for m, c in polynomial.terms()
-        ),
-        default=0.0,
+    coefficients = (abs(int(c.p)) / int(c.q) for c in polynomial.value.coeffs())
+    if all(size == 1.0 for size in sizes):
+        return max(coefficients, default=0.0)
+    monomials = (
+        prod(s**e for s, e in zip(sizes, map(int, m), strict=True) if e) for m in polynomial.value.monoms()
     )
+    return max((c * m for c, m in zip(coefficients, monomials, strict=True)), default=0.0)

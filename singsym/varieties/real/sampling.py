@@ -16,6 +16,8 @@ NEAR = 1e-3
 """Smaller values of exclusions over their largest terms are taken for zero: as at a fourfold root."""
 ROUNDING = 1e-9
 """So far below zero, over their largest terms, inequalities are taken to hold."""
+ROUNDING = 1e-8
+"""So much of the largest term of a polynomial may be left at a numerical zero."""
 STARTS = (4, 56)
 """So many random starts are tried together for numerical points of a set, until there are enough."""
 POLISHING = 15
@@ -101,7 +103,12 @@ def is_large(
 ) -> bool:
     """Whether a polynomial is certainly not small at one of the points.
 
-    Relative to its largest term where all variables have these sizes; to its coefficients without them.
+    Relative to its largest term where all variables have these sizes; to its coefficients without them; and
+    more than what is left of the largest terms at the point by rounding.
     """
     size = largest_term(polynomial, sizes or (1.0,) * len(polynomial.ring.names))
-    return any(abs(polynomial.evaluate(x)) > least * size for x in points)
+    for x in points:
+        value = abs(polynomial.evaluate(x))
+        if value > least * size and value > ROUNDING * largest_term(polynomial, tuple(map(abs, x))):
+            return True
+    return False
