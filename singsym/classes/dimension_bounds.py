@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from singsym.classes.patches import patches
+from singsym.classes.patches import patches, unsplit
 from singsym.elimination.attempts import attempt
 from singsym.elimination.budget import current
 from singsym.elimination.ideal import Ideal
@@ -36,6 +36,20 @@ POINTS = 40
 """So many numerical points are looked at for parts of a larger dimension."""
 LARGEST_DENOMINATOR = 360
 _CONSTANT, _NEAR = 1e-6, 1e-7
+
+
+def off_borders(system: RealSystem) -> RealSystem:
+    """The part of a set where no inequality is an equality, but for those that are so on all of it.
+
+    >>> from singsym.polynomials import Ring
+    >>> x, y = Ring(("x", "y")).gens
+    >>> half = off_borders(RealSystem(x.ring, (y,), nonnegative=(x - 1, y)))
+    >>> half.positive, half.nonnegative
+    ((x - 1,), ())
+    """
+    restrict = unsplit(system.closed_equations, system.ring).restrict
+    strict = tuple(p for p in system.nonnegative if restrict(p))
+    return replace(system, positive=(*system.positive, *strict), nonnegative=())
 
 
 @dataclass(frozen=True)
@@ -82,7 +96,7 @@ def points_off_exclusions(system: RealSystem) -> list[RealPoint]:
     >>> R = Ring(("x", "y"))
     >>> x, y = R.gens
     >>> points_off_exclusions(RealSystem(R, (x * y, y**2 - y), exclusions=((y,),)))
-    [RealPoint(x=0.00000, y=1.00000)]
+    [RealPoint(x=0, y=1)]
     """
     ring, equations = _off_exclusions(system)
     return [dropped(point, system.ring) for point in real_points(Ideal(ring, equations))]

@@ -68,11 +68,11 @@ def sections() -> list[str]:
 
 
 def test_each_row_is_complete() -> None:
-    """Claim, theorem, suppositions, functions: as many cells as the head, and only suppositions may be empty."""
+    """As many cells as the head, of which only suppositions may be empty; functions come last."""
     for section in sections():
         for row in rows(section):
             assert len(row) == len(rows(section)[0]), row
-            assert row[0] and row[1], row
+            assert all((row[0], row[1])), row
             if section != "Fields of the output":
                 assert re.search(r"`\w+(\.\w+)+`", row[-1]), row
 
@@ -111,7 +111,7 @@ def keys(data: Any) -> Iterator[str]:
 
 @cache
 def outputs() -> dict[str, Any]:
-    """What the commands print of a small mechanism, which is singular where the crank and the rod are in line."""
+    """What the commands print of a small mechanism, singular where the crank and the rod are in line."""
     mechanism = load("slider-crank")
     equation = velocity_equation(mechanism)
     dead = {"points": {"B": [1, 0], "C": [4, 0]}}
