@@ -13,24 +13,31 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from singsym.classes.cache import user_cache
+from singsym.classes.conclusions import (
+    MOST_FREEDOMS,
+    at_least,
+    classes_of,
+    largest_inside,
+    locus_of,
+    with_numbers,
+)
+from singsym.classes.coordinates import local_coordinates
 from singsym.classes.curves import Counted, CurveTask, count
 from singsym.classes.explore import Branch, Found
-from singsym.classes.extent import EMPTY, Extent, union
+from singsym.classes.extent import union
 from singsym.classes.processes import processes
 from singsym.classes.realise import Names, Realised, RealTask, realise
-from singsym.classes.result import Classification, ClassResult, Locus, Piece, conditions_latex
+from singsym.classes.result import Classification, Locus, Piece
 from singsym.classes.search import Exploration, Loci, SingularLoci, search
 from singsym.classes.space import configuration_space
-from singsym.classes.steps import excluded_in, found_in
 from singsym.classes.strata import RankProblem, Stratum
 from singsym.classes.symmetry import image, reflections
-from singsym.classes.types import Defects, SingularityClass, SingularityType, feasible_classes
+from singsym.classes.types import Defects, SingularityType
 from singsym.classes.units import Border
 from singsym.classes.work import Runner
 from singsym.elimination import engines
 from singsym.elimination.budget import Budget
 from singsym.elimination.conditions import Conditions, Factor, conditions
-from singsym.elimination.verdict import Certainty, Verdict, weakest
 from singsym.kinematics.reduction import reduce
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import Mechanism
@@ -38,8 +45,6 @@ from singsym.varieties.real.witness import RealSystem
 
 FIRST_SECONDS, SECOND_SECONDS = 1.0, 5.0
 """So long each stratum is looked at before it is known whether more time is worth while."""
-MOST_FREEDOMS = 2
-NOT_COUNTED = f"components of curves are counted for n <= {MOST_FREEDOMS}, and not within inequalities"
 BOUND_SECONDS = 30.0
 """So long one is looked at last of which only a larger dimension would matter."""
 
@@ -167,7 +172,7 @@ class _Work:
         explored = search(root, self.runner, self._singular_loci(), Budget(self.limits.total))
         pieces = self._with_components(explored.found, self._pieces(explored.found))
         loci = self._loci(explored, pieces)
-        classes = self._classes(explored, pieces)
+        classes = classes_of(explored, pieces, self.equation.n, self._counting)
         return Classification(
             self.mechanism,
             self.equation,
@@ -199,10 +204,12 @@ class _Work:
         Lemma: a configuration that moves along a set of dimension d has as many independent motions, which
         are n + delta at most, as every motion of the links moves a joint; and parameters may vary.
         """
-        most = None
-        if self.mechanism is not None and delta is not None:
-            most = self.equation.n + delta + len(self.equation.space.parameters)
-        return RealTask(found, self.feasible, self.names, self.limits.seconds, self.limits.memory_mb, most)
+        task = RealTask(found, self.feasible, self.names, self.limits.seconds, self.limits.memory_mb)
+        if self.mechanism is None or delta is None:
+            return task
+        most = self.equation.n + delta + len(self.equation.space.parameters)
+        coordinates = local_coordinates(self.mechanism, self.equation, found.stratum.defects.types)
+        return replace(task, most=most, coordinates=coordinates)
 
     def _look_again(
         self, tasks: Sequence[RealTask], realised: list[Realised], seconds: float | None, stage: str
@@ -246,7 +253,7 @@ class _Work:
         """
         factors = [(label, factor) for label in ("4", "5") for factor in self.conditions[label].factors]
         singular = union((p.extent for p in pieces if p.defects.types), explored.doubts_of_any)
-        known = [_largest_inside(factor, pieces) for _, factor in factors]
+        known = [largest_inside(factor, pieces) for _, factor in factors]
         bounded = [
             self.equation.n > 1 and piece is not None and piece.extent.at_least == singular.dimension
             for piece in known
@@ -257,7 +264,7 @@ class _Work:
         found = []
         for i, piece in enumerate(known):
             if piece is None or not bounded[i]:
-                found.append(_at_least(whole[i].pieces[0], piece))
+                found.append(at_least(whole[i].pieces[0], piece))
             else:
                 found.append(replace(piece, extent=singular, points=None, components=None))
         curves = [i for i, piece in enumerate(found) if piece.dimension == 1 and self._counting]
@@ -265,7 +272,7 @@ class _Work:
         counted = self._count([CurveTask(((*equations, factors[i][1].polynomial),), ((),)) for i in curves])
         numbers = dict(zip(curves, counted, strict=True))
         return tuple(
-            _locus(label, factor, found[i], numbers.get(i), self._counting)
+            locus_of(label, factor, found[i], numbers.get(i), self._counting)
             for i, (label, factor) in enumerate(factors)
         )
 
@@ -288,26 +295,38 @@ class _Work:
     # -- classes -------------------------------------------------------------------------------------
 
     def _with_components(self, found: Sequence[Found], realised: Sequence[Realised]) -> list[Piece]:
-        """All pieces; the curves of classes that are curves with their numbers of components."""
+        """All pieces; those of classes that are curves with their numbers of components."""
         known = _dimensions(piece for part in realised for piece in part.pieces)
-        curves = [
+        own = [
             i
             for i, part in enumerate(realised)
-            if self._counting and part.pieces and part.pieces[0].dimension == 1
-            if (types := part.pieces[0].defects.types) and known[types] == 1
+            if self._counting
+            and part.pieces
+            and (types := part.pieces[0].defects.types)
+            and known.get(types) == 1
         ]
+        curves = [i for i in own if realised[i].pieces[0].dimension == 1]
         tasks = [self._curve(found[i], realised[i]) for i in curves]
         counted = dict(zip(curves, self._count(tasks), strict=True))
-        pieces: list[Piece] = []
-        for i, part in enumerate(realised):
-            number = counted.get(i, Counted(None))
-            for k, piece in enumerate(part.pieces):
-                if number.components is not None:
-                    piece = replace(piece, components=number.components[k])
-                elif number.reason:
-                    piece = replace(piece, uncounted=number.reason, countable=number.open)
-                pieces.append(piece)
-        return pieces
+        parts = [with_numbers(part, counted.get(i)) for i, part in enumerate(realised)]
+        points = [i for i in own if realised[i].pieces[0].dimension == 0]
+        beside = [self._beside(found[i], [p for k in curves for p in realised[k].pieces]) for i in points]
+        for i, part in zip(points, self.runner.map(realise, beside, "points beside curves"), strict=True):
+            numbers = [p.points for p in part.pieces if p.verdict.is_yes]
+            number = (
+                None
+                if any(p.verdict.is_undecided for p in part.pieces)
+                else sum(map(int, filter(None, numbers)))
+            )
+            first, *others = parts[i]
+            parts[i] = [replace(first, components=number), *(replace(p, components=0) for p in others)]
+        return [piece for part in parts for piece in part]
+
+    def _beside(self, found: Found, curves: Sequence[Piece]) -> RealTask:
+        """The points of a stratum that are on none of the curves of its class."""
+        stratum = found.stratum
+        own = tuple(p.basis for p in curves if p.defects.types == stratum.defects.types)
+        return self._task(replace(found, stratum=replace(stratum, loci=(*stratum.loci, *own))), None)
 
     def _curve(self, found: Found, part: Realised) -> CurveTask:
         """A stratum that is a curve, and its images, off what other strata of the same types have."""
@@ -315,117 +334,6 @@ class _Work:
         own = self.equation.space.exclusions
         exclusions = ((*own, *p.exclusions, *e) for p, e in zip(part.pieces, elsewhere, strict=True))
         return CurveTask(tuple(p.basis for p in part.pieces), tuple(exclusions))
-
-    def _classes(self, explored: Exploration, pieces: Sequence[Piece]) -> tuple[ClassResult, ...]:
-        occurring = {p.defects.types for p in pieces if p.verdict.is_yes}
-        possible = set(feasible_classes(self.equation.n))
-        results = []
-        for candidate in feasible_classes():
-            if candidate not in possible:
-                reason = f"impossible for n = {self.equation.n}, by the inequalities of the four ranks"
-                results.append(
-                    ClassResult(candidate, Verdict.no(reason=reason), (), EMPTY, None, None, (), "")
-                )
-                continue
-            own = [p for p in pieces if p.defects.types == candidate.types]
-            results.append(_class(candidate, occurring, explored, own, self._counting))
-        return tuple(results)
-
-
-def _class(
-    candidate: SingularityClass,
-    occurring: set[SingularityType],
-    explored: Exploration,
-    own: Sequence[Piece],
-    counting: bool,
-) -> ClassResult:
-    """What its pieces say of a class, and the doubts about those and about parts that were not searched."""
-    present = sorted((p for p in own if p.verdict.is_yes), key=lambda p: (-p.extent.at_least, str(p.path)))
-    unexplored = explored.doubts(candidate.types)
-    extent = union((p.extent for p in own if not p.verdict.is_no), unexplored)
-    known = explored.certainty_of(candidate.types)
-    points = components = None
-    uncounted = remark = ""
-    if present:
-        certainty = present[0].verdict.certainty
-        verdict = Verdict.yes(certainty, reason=_reservations(extent, known))
-        steps: tuple[str, ...] = (found_in(candidate.types),)
-        if extent.dimension == 0 or (counting and extent.dimension == 1):
-            points, components, uncounted, remark = _counts(extent, own)
-        elif extent.dimension == 1:
-            remark = NOT_COUNTED
-    elif unexplored or any(p.verdict.is_undecided for p in own):
-        reasons = [*(p.verdict.reason for p in own if p.verdict.is_undecided), *unexplored]
-        verdict = Verdict.undecided("; ".join(dict.fromkeys(reasons)))
-        steps = (found_in(candidate.types),)
-    else:
-        certainty = weakest(known, *(p.verdict.certainty for p in own))
-        ruled_out = "; ".join(dict.fromkeys(p.verdict.reason for p in own))
-        verdict = Verdict.no(certainty, reason=ruled_out or "no stratum of the four ranks has these types")
-        steps, extent = (excluded_in(candidate.types, occurring),), EMPTY
-    return ClassResult(
-        candidate,
-        verdict,
-        tuple(present),
-        extent,
-        points,
-        components,
-        steps,
-        conditions_latex(present),
-        uncounted,
-        remark,
-    )
-
-
-def _counts(extent: Extent, pieces: Sequence[Piece]) -> tuple[int | None, int | None, str, str]:
-    """Points and connected components of a class; or why not, if a larger budget could help, and if not.
-
-    Points of a curve's class that are on no curve of it are components too.
-    """
-    own = [p for p in pieces if not p.verdict.is_no]
-    left = [p for p in own if p.verdict.is_undecided or p.components is None]
-    if left:
-        reasons = dict.fromkeys(p.uncounted or p.extent.open or p.verdict.reason for p in left)
-        said = f"not counted: {'; '.join(reasons)}"
-        return (None, None, said, "") if any(p.countable for p in left) else (None, None, "", said)
-    total = sum(p.components or 0 for p in own)
-    return (total if extent.dimension == 0 else None), total, "", ""
-
-
-def _largest_inside(factor: Factor, pieces: Sequence[Piece]) -> Piece | None:
-    """The largest stratum on whose way down a factor was set to zero, if one is known to have a point."""
-    inside = [p for p in pieces if factor.polynomial in p.path and p.verdict.is_yes]
-    return max(inside, key=lambda p: p.extent.at_least, default=None)
-
-
-def _at_least(whole: Piece, inside: Piece | None) -> Piece:
-    """A locus of which a stratum inside may show more than it shows by itself."""
-    if inside is None or inside.extent.at_least <= whole.extent.at_least:
-        return whole
-    extent = replace(whole.extent, at_least=inside.extent.at_least)
-    return replace(whole, verdict=inside.verdict, extent=extent, witnesses=inside.witnesses)
-
-
-def _locus(label: str, factor: Factor, piece: Piece, counted: Counted | None, counting: bool) -> Locus:
-    components, reason, is_open = piece.components, piece.extent.open, True
-    if counted is not None:
-        components = None if counted.components is None else counted.components[0]
-        reason, is_open = counted.reason, counted.open
-    elif piece.dimension == 1 and not counting:
-        reason, is_open = NOT_COUNTED, False
-    reason = "" if components is not None else reason
-    return Locus(
-        label,
-        factor.polynomial,
-        factor.words,
-        factor.latex(),
-        piece.verdict,
-        piece.extent,
-        components,
-        piece.points,
-        reason if is_open else "",
-        "" if is_open else reason,
-    )
 
 
 def _dimensions(pieces: Iterable[Piece]) -> dict[SingularityType, int]:
@@ -447,14 +355,3 @@ def _open(piece: Piece, known: int | None) -> bool:
         return True
     uncounted = known == 0 and piece.points is None
     return uncounted or (piece.verdict.is_undecided and known < 2)
-
-
-def _reservations(extent: Extent, known: Certainty) -> str:
-    """What is not known, or not proven, of a class that occurs; `known`: how it is that there is no more."""
-    if extent.dimension is None:
-        return f"its dimension is {extent}: {extent.open}"
-    if known != "proven":
-        return "that there is no more of it rests on random primes"
-    if extent.bounded != "proven":
-        return "that no part of it has a larger dimension rests on random primes"
-    return ""

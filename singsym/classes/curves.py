@@ -13,8 +13,8 @@ from singsym.elimination.budget import Budget, Undecided
 from singsym.elimination.ideal import Ideal
 from singsym.varieties.real.curve import real_curve
 from singsym.varieties.real.curve_equations import NotACurve
+from singsym.varieties.real.curve_parts import components_outside
 from singsym.varieties.real.points import RealPoint
-from singsym.varieties.real.zerodim import real_points
 
 
 @dataclass(frozen=True)
@@ -80,29 +80,17 @@ def _share_a_curve(one: Equations, other: Equations) -> bool:
 def _components(equations: Equations, exclusions: tuple[Equations, ...]) -> int:
     """Those of one curve; raises `Undecided`."""
     ideal = Ideal(equations[0].ring, equations)
-    whole = [group for group in exclusions if (ideal + Ideal(ideal.ring, group)).dimension > 0]
-    left = ideal
-    for group in whole:
-        left = left.saturate(Ideal(ideal.ring, group))
-    curve = real_curve(left)
-    if not curve.verdict.is_undecided:
-        return curve.connected_components - sum(_lies_in(p, exclusions) for p in curve.isolated_points)
-    if len(whole) != 1:
+    curve = real_curve(ideal)
+    if curve.verdict.is_undecided:
         raise Undecided(curve.verdict.reason)
-    return _by_difference(ideal, left, whole[0], exclusions)
-
-
-def _by_difference(ideal: Ideal, left: Ideal, group: Equations, exclusions: tuple[Equations, ...]) -> int:
-    """Those of all the curve without those of the part that is taken out, where the two do not meet."""
-    taken = ideal + Ideal(ideal.ring, group)
-    if real_points(left + taken):
-        raise Undecided("a part of the curve belongs to another class and meets the rest")
-    curves = [real_curve(part) for part in (ideal, taken)]
-    for curve in curves:
-        if curve.verdict.is_undecided:
-            raise Undecided(curve.verdict.reason)
-    alone = [p for p in curves[0].isolated_points if _lies_in(p, exclusions) and not _lies_in(p, (group,))]
-    return curves[0].connected_components - curves[1].connected_components - len(alone)
+    alone = sum(not _lies_in(p, exclusions) for p in curve.isolated_points)
+    whole = [group for group in exclusions if (ideal + Ideal(ideal.ring, group)).dimension > 0]
+    if not whole:
+        return len(curve.components) + alone
+    rest = ideal
+    for group in whole:
+        rest = rest.saturate(Ideal(ideal.ring, group))
+    return components_outside(curve, whole, rest.generators) + alone
 
 
 def _lies_in(point: RealPoint, loci: tuple[Equations, ...]) -> bool:

@@ -3,7 +3,7 @@
 Lemma 1.  Where all equations have independent gradients at a real point, the real zeros are a manifold near
 it, of dimension the number of variables less that of equations.
 Lemma 2.  A subset given by more equations, and of a larger dimension, bounds the dimension from below.
-Lemma 3.  The real dimension is not above the complex one of the equations.
+Lemma 3.  The real dimension is not above the complex one of the equations, nor what `towers` proves.
 Source: Bochnak, Coste, Roy, Real Algebraic Geometry (1998), 2.8 and 3.3.
 """
 
@@ -25,9 +25,12 @@ from singsym.varieties.real.cuts import seems_at_most
 from singsym.varieties.real.dimension import independent
 from singsym.varieties.real.points import RealPoint
 from singsym.varieties.real.sampling import is_large, numerical_points
+from singsym.varieties.real.towers import is_dimension_at_most
 from singsym.varieties.real.witness import RealSystem, Witness, find_witness
 from singsym.varieties.real.zerodim import real_points
 
+TOWER_SECONDS = 2.0
+"""So long variables are eliminated in turn, to prove a bound from above."""
 PROOF_SECONDS = 3.0
 """So long a Groebner basis is waited for that proves a bound from above."""
 CUT_SECONDS = 10.0
@@ -74,6 +77,9 @@ def bound_above(system: RealSystem, dimension: int, beside: int = 0) -> Bound | 
     (None, Bound(dimension=2, certainty='proven'))
     """
     ring, equations = system.ring, system.closed_equations
+    with attempt("a bound of a dimension", TOWER_SECONDS):
+        if is_dimension_at_most(ring, equations, system.nonzero, dimension + beside):
+            return Bound(dimension)
     seems = None
     with attempt("a bound of a dimension", CUT_SECONDS), unnoted():
         seems = seems_at_most(ring, equations, dimension + beside)

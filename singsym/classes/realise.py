@@ -13,6 +13,7 @@ from itertools import chain
 
 from flint import arb
 
+from singsym.classes.coordinates import are_missed
 from singsym.classes.dimension_bounds import (
     Bound,
     bound_above,
@@ -25,7 +26,6 @@ from singsym.classes.extent import EMPTY, Extent
 from singsym.classes.patches import Patch, unsplit
 from singsym.classes.presence import is_proven_empty, restricted
 from singsym.classes.result import Configuration, Equations, Piece
-from singsym.classes.strata import Stratum
 from singsym.classes.symmetry import image
 from singsym.elimination.attempts import attempt
 from singsym.elimination.budget import Budget, Undecided
@@ -48,6 +48,8 @@ DIGITS = 24
 SEARCHES = 300
 """Random starts in the search for a point of a set given by independent equations."""
 
+MISSING_SECONDS = 5.0
+"""So long random values of joints are tried, to see that a stratum is no open part of the space."""
 DIMENSION_SECONDS = 20.0
 """So long the dimension of a set that has a certified point is looked for."""
 
@@ -66,7 +68,8 @@ class Names:
 class RealTask:
     """A stratum to be realised on a feasible set, within a budget.
 
-    most: a bound of the real dimension, if there is one; known: a dimension, where only a larger one of the
+    most: a bound of the real dimension, if there is one; coordinates: local ones of the space wherever the
+    stratum has that dimension (see `coordinates`); known: a dimension, where only a larger one of the
     stratum would matter.
     """
 
@@ -76,6 +79,7 @@ class RealTask:
     seconds: float | None = None
     memory_mb: int | None = None
     most: int | None = None
+    coordinates: tuple[JointValue, ...] = ()
     known: int | None = None
 
     def unfinished(self, reason: str) -> Realised:
@@ -107,12 +111,12 @@ def realise(task: RealTask) -> Realised:
     points: Points = ()
     try:
         with Budget(work=task.seconds, memory_mb=task.memory_mb), certainties() as seen:
-            if task.known is not None and (bound := _bound(system, task.known)) is not None:
+            if task.known is not None and (bound := _bound(system, task.known, task)) is not None:
                 reason = f"only a dimension above {task.known} would matter"
                 extent = Extent(-1, bound.dimension, bound.certainty, reason)
                 piece = replace(piece, verdict=Verdict.undecided(reason), extent=extent)
             else:
-                piece, points = _realised(piece, system, stratum)
+                piece, points = _realised(piece, system, task)
         if piece.verdict.is_no:
             verdict = replace(piece.verdict, certainty=weakest(piece.verdict.certainty, *seen))
             piece = replace(piece, verdict=verdict)
@@ -129,10 +133,11 @@ def _piece(task: RealTask, reason: str) -> Piece:
     return Piece(task.found.path, stratum.equations, stratum.loci, stratum.defects, verdict, extent)
 
 
-def _realised(piece: Piece, system: RealSystem, stratum: Stratum) -> tuple[Piece, Points]:
+def _realised(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, Points]:
+    stratum = task.found.stratum
     component = stratum.component
     if component is None:
-        return _given(piece, system, stratum.elsewhere)
+        return _given(piece, system, task)
     if component.dimension == 0:
         with certainties() as seen:
             solutions = real_points(stratum.equations)
@@ -165,8 +170,9 @@ def _images(piece: Piece, points: Points, task: RealTask) -> Iterator[Piece]:
         yield replace(shown, points=len(own), components=len(own)) if piece.points else shown
 
 
-def _given(piece: Piece, system: RealSystem, elsewhere: tuple[Equations, ...]) -> tuple[Piece, Points]:
+def _given(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, Points]:
     """A set given by equations: where their gradients are independent at a point, a manifold near it."""
+    elsewhere = task.found.stratum.elsewhere
     dimension = len(system.ring.names) - len(system.closed_equations)
     if dimension <= 0:
         with certainties() as seen:
@@ -180,7 +186,7 @@ def _given(piece: Piece, system: RealSystem, elsewhere: tuple[Equations, ...]) -
     if codimension in (None, len(system.closed_equations)):
         witness = find_witness(off_borders(system), tries=SEARCHES)
         if witness is not None and independent(system.closed_equations, witness.point):
-            return _counted(*_bounded(piece, system, dimension, witness), system, elsewhere)
+            return _counted(*_bounded(piece, system, (dimension, witness), task), system, elsewhere)
     return _counted(*_dependent(piece, system, patch), system, elsewhere)
 
 
@@ -194,16 +200,18 @@ def _finitely_many(system: RealSystem) -> Sequence[RealPoint] | None:
     return None
 
 
-def _bounded(piece: Piece, system: RealSystem, dimension: int, witness: Witness) -> tuple[Piece, Points]:
+def _bounded(
+    piece: Piece, system: RealSystem, known: tuple[int, Witness], task: RealTask
+) -> tuple[Piece, Points]:
     """A set with a certified point, near which it has a dimension: is there a part with a larger one?"""
-    most = piece.extent.at_most
+    most, (dimension, witness) = piece.extent.at_most, known
     found, points = _known(piece, Extent(dimension, most), witness)
     try:
-        for larger, other in chain([(dimension, witness)], larger_parts(off_borders(system), dimension)):
+        for larger, other in chain([known], larger_parts(off_borders(system), dimension)):
             found, points = _known(piece, Extent(larger, most), other)
             if larger == most:
                 return found, points
-            if (bound := _bound(system, larger)) is not None:
+            if (bound := _bound(system, larger, task)) is not None:
                 extent = Extent(larger, bound.dimension, bound.certainty)
                 return replace(found, extent=extent), points
         return _by_components(piece, system)
@@ -252,8 +260,12 @@ def _charted(system: RealSystem, patch: Patch) -> tuple[Cartesian, int]:
     return chart, len(patch.solved) + chart.left_out
 
 
-def _bound(system: RealSystem, dimension: int) -> Bound | None:
+def _bound(system: RealSystem, dimension: int, task: RealTask) -> Bound | None:
     """A bound of the dimension of a set, where it is one."""
+    if task.most == dimension + 1 and task.coordinates:
+        with attempt("a bound of a dimension", MISSING_SECONDS):
+            if are_missed(system.closed_equations, task.coordinates):
+                return Bound(dimension, "modular")
     chart, beside = _charted(system, unsplit(system.closed_equations, system.ring))
     return bound_above(chart.system, dimension, beside)
 
@@ -282,7 +294,7 @@ def _finite(
         verdict = Verdict.no(
             known, reason="none of finitely many complex solutions is real, feasible and new"
         )
-        return replace(piece, verdict=verdict, extent=EMPTY, points=0), ()
+        return replace(piece, verdict=verdict, extent=EMPTY, points=0, components=0), ()
     count = len(points)
     extent = Extent(0, 0, known)
     found = replace(piece, verdict=Verdict.yes(), extent=extent, points=count, components=count)

@@ -1,0 +1,174 @@
+"""What the strata, and the branches that were not searched, say of loci and of the 21 classes.
+
+Source: Zlatanov, Fenton, Benhabib (1998), section 3.2, Table 2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from singsym.classes.curves import Counted
+from singsym.classes.extent import EMPTY, Extent, union
+from singsym.classes.realise import Realised
+from singsym.classes.result import ClassResult, Locus, Piece, conditions_latex
+from singsym.classes.search import Exploration
+from singsym.classes.steps import excluded_in, found_in
+from singsym.classes.types import SingularityClass, SingularityType, feasible_classes
+from singsym.elimination.attempts import attempt
+from singsym.elimination.conditions import Factor
+from singsym.elimination.ideal import Ideal
+from singsym.elimination.verdict import Certainty, Verdict, unnoted, weakest
+from singsym.polynomials import Polynomial
+from singsym.varieties.real.sampling import is_large
+
+MEMBERSHIP_SECONDS = 2.0
+"""So long it is waited for that a stratum lies in a locus as a whole."""
+MOST_FREEDOMS = 2
+NOT_COUNTED = f"components of curves are counted for n <= {MOST_FREEDOMS}, and not within inequalities"
+
+
+def classes_of(
+    explored: Exploration, pieces: Sequence[Piece], n: int, counting: bool
+) -> tuple[ClassResult, ...]:
+    """The 21 classes; counting: whether components of curves were counted."""
+    occurring = {p.defects.types for p in pieces if p.verdict.is_yes}
+    possible = set(feasible_classes(n))
+    results = []
+    for candidate in feasible_classes():
+        if candidate not in possible:
+            no = Verdict.no(reason=f"impossible for n = {n}, by the inequalities of the four ranks")
+            results.append(ClassResult(candidate, no, (), EMPTY, None, None, (), ""))
+            continue
+        own = [p for p in pieces if p.defects.types == candidate.types]
+        results.append(_class(candidate, occurring, explored, own, counting))
+    return tuple(results)
+
+
+def with_numbers(part: Realised, counted: Counted | None) -> list[Piece]:
+    """The pieces of a stratum with the numbers of connected components of each, or why they are not known."""
+    if counted is None:
+        return list(part.pieces)
+    if counted.components is None:
+        return [replace(p, uncounted=counted.reason, countable=counted.open) for p in part.pieces]
+    return [replace(p, components=k) for p, k in zip(part.pieces, counted.components, strict=True)]
+
+
+def _class(
+    candidate: SingularityClass,
+    occurring: set[SingularityType],
+    explored: Exploration,
+    own: Sequence[Piece],
+    counting: bool,
+) -> ClassResult:
+    """What its pieces say of a class, and the doubts about those and about parts that were not searched."""
+    present = sorted((p for p in own if p.verdict.is_yes), key=lambda p: (-p.extent.at_least, str(p.path)))
+    unexplored = explored.doubts(candidate.types)
+    extent = union((p.extent for p in own if not p.verdict.is_no), unexplored)
+    known = explored.certainty_of(candidate.types)
+    points = components = None
+    uncounted = remark = ""
+    if present:
+        certainty = present[0].verdict.certainty
+        verdict = Verdict.yes(certainty, reason=_reservations(extent, known))
+        steps: tuple[str, ...] = (found_in(candidate.types),)
+        if extent.dimension == 0 or (counting and extent.dimension == 1):
+            points, components, uncounted, remark = _counts(extent, own)
+        elif extent.dimension == 1:
+            remark = NOT_COUNTED
+    elif unexplored or any(p.verdict.is_undecided for p in own):
+        reasons = [*(p.verdict.reason for p in own if p.verdict.is_undecided), *unexplored]
+        verdict = Verdict.undecided("; ".join(dict.fromkeys(reasons)))
+        steps = (found_in(candidate.types),)
+    else:
+        certainty = weakest(known, *(p.verdict.certainty for p in own))
+        ruled_out = "; ".join(dict.fromkeys(p.verdict.reason for p in own))
+        verdict = Verdict.no(certainty, reason=ruled_out or "no stratum of the four ranks has these types")
+        steps, extent = (excluded_in(candidate.types, occurring),), EMPTY
+    return ClassResult(
+        candidate,
+        verdict,
+        tuple(present),
+        extent,
+        points,
+        components,
+        steps,
+        conditions_latex(present),
+        uncounted,
+        remark,
+    )
+
+
+def _counts(extent: Extent, pieces: Sequence[Piece]) -> tuple[int | None, int | None, str, str]:
+    """Points and connected components of a class; or why not, if a larger budget could help, and if not.
+
+    Points of a curve's class that are on no curve of it, closed up as equations are, are components too.
+    """
+    own = [p for p in pieces if not p.verdict.is_no]
+    left = [p for p in own if p.verdict.is_undecided or p.components is None]
+    if left:
+        reasons = dict.fromkeys(p.uncounted or p.extent.open or p.verdict.reason for p in left)
+        said = f"not counted: {'; '.join(reasons)}"
+        return (None, None, said, "") if any(p.countable for p in left) else (None, None, "", said)
+    total = sum(p.components or 0 for p in own)
+    return (total if extent.dimension == 0 else None), total, "", ""
+
+
+def largest_inside(factor: Factor, pieces: Sequence[Piece]) -> Piece | None:
+    """The largest stratum that is seen to lie in the zeros of a factor, if one is known to have a point."""
+    inside = [p for p in pieces if p.verdict.is_yes and _vanishes(factor.polynomial, p)]
+    return max(inside, key=lambda p: p.extent.at_least, default=None)
+
+
+def _vanishes(polynomial: Polynomial, piece: Piece) -> bool:
+    """Whether a polynomial is seen to vanish on a piece: by its path, or as a member of its ideal."""
+    if polynomial in piece.path:
+        return True
+    names = polynomial.ring.names
+    places = tuple(tuple(float(w.coordinates[name]) for name in names) for w in piece.witnesses)
+    if not places or is_large(polynomial, places):
+        return False
+    with attempt("membership", MEMBERSHIP_SECONDS), unnoted() as seen:
+        return Ideal(polynomial.ring, piece.basis).contains(polynomial) and weakest(*seen) == "proven"
+    return False
+
+
+def at_least(whole: Piece, inside: Piece | None) -> Piece:
+    """A locus of which a stratum inside may show more than it shows by itself."""
+    if inside is None or inside.extent.at_least <= whole.extent.at_least:
+        return whole
+    extent = replace(whole.extent, at_least=inside.extent.at_least)
+    return replace(whole, verdict=inside.verdict, extent=extent, witnesses=inside.witnesses)
+
+
+def locus_of(label: str, factor: Factor, piece: Piece, counted: Counted | None, counting: bool) -> Locus:
+    components, reason, is_open = piece.components, piece.extent.open, True
+    if counted is not None:
+        components = None if counted.components is None else counted.components[0]
+        reason, is_open = counted.reason, counted.open
+    elif piece.dimension == 1 and not counting:
+        reason, is_open = NOT_COUNTED, False
+    reason = "" if components is not None else reason
+    return Locus(
+        label,
+        factor.polynomial,
+        factor.words,
+        factor.latex(),
+        piece.verdict,
+        piece.extent,
+        components,
+        piece.points,
+        reason if is_open else "",
+        "" if is_open else reason,
+    )
+
+
+def _reservations(extent: Extent, known: Certainty) -> str:
+    """What is not known, or not proven, of a class that occurs; `known`: how it is that there is no more."""
+    if extent.dimension is None:
+        return f"its dimension is {extent}: {extent.open}"
+    if known != "proven":
+        return "that there is no more of it rests on random primes"
+    if extent.bounded != "proven":
+        return "that no part of it has a larger dimension rests on random primes"
+    return ""
