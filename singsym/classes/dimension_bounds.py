@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from singsym.classes.patches import patches
+from singsym.classes.patches import patches, unsplit
 from singsym.elimination.attempts import attempt
 from singsym.elimination.budget import current
 from singsym.elimination.ideal import Ideal
@@ -39,6 +39,20 @@ POINTS = 40
 """So many numerical points are looked at for parts of a larger dimension."""
 LARGEST_DENOMINATOR = 360
 _CONSTANT, _NEAR = 1e-6, 1e-7
+
+
+def off_borders(system: RealSystem) -> RealSystem:
+    """The part of a set where no inequality is an equality, but for those that are so on all of it.
+
+    >>> from singsym.polynomials import Ring
+    >>> x, y = Ring(("x", "y")).gens
+    >>> half = off_borders(RealSystem(x.ring, (y,), nonnegative=(x - 1, y)))
+    >>> half.positive, half.nonnegative
+    ((x - 1,), ())
+    """
+    restrict = unsplit(system.closed_equations, system.ring).restrict
+    strict = tuple(p for p in system.nonnegative if restrict(p))
+    return replace(system, positive=(*system.positive, *strict), nonnegative=())
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,13 @@ from itertools import chain
 from flint import arb
 
 from singsym.classes.coordinates import are_missed
-from singsym.classes.dimension_bounds import Bound, bound_above, larger_parts, points_off_exclusions
+from singsym.classes.dimension_bounds import (
+    Bound,
+    bound_above,
+    larger_parts,
+    off_borders,
+    points_off_exclusions,
+)
 from singsym.classes.explore import Found
 from singsym.classes.extent import EMPTY, Extent
 from singsym.classes.patches import Patch, unsplit
@@ -133,7 +139,9 @@ def _realised(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, 
     if component is None:
         return _given(piece, system, task)
     if component.dimension == 0:
-        return _finite(piece, real_points(stratum.equations), system, stratum.elsewhere)
+        with certainties() as seen:
+            solutions = real_points(stratum.equations)
+        return _finite(piece, solutions, system, stratum.elsewhere, weakest(*seen))
     with certainties() as seen:
         found = component_dimension(component, system)
     return _counted(*_exactly(piece, *found, weakest(*seen)), system, stratum.elsewhere)
@@ -166,14 +174,17 @@ def _given(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, Poi
     """A set given by equations: where their gradients are independent at a point, a manifold near it."""
     elsewhere = task.found.stratum.elsewhere
     dimension = len(system.ring.names) - len(system.closed_equations)
-    if dimension <= 0 and (solutions := _finitely_many(system)) is not None:
-        return _finite(piece, solutions, system, elsewhere)
+    if dimension <= 0:
+        with certainties() as seen:
+            solutions = _finitely_many(system)
+        if solutions is not None:
+            return _finite(piece, solutions, system, elsewhere, weakest(*seen))
     codimension = numerical_codimension(system)
     patch = unsplit(system.closed_equations, system.ring)
     if codimension is None and is_proven_empty(restricted(system, patch)):
         return _exactly(piece, -1, None)
     if codimension in (None, len(system.closed_equations)):
-        witness = find_witness(system, tries=SEARCHES)
+        witness = find_witness(off_borders(system), tries=SEARCHES)
         if witness is not None and independent(system.closed_equations, witness.point):
             return _counted(*_bounded(piece, system, (dimension, witness), task), system, elsewhere)
     return _counted(*_dependent(piece, system, patch), system, elsewhere)
@@ -196,7 +207,7 @@ def _bounded(
     most, (dimension, witness) = piece.extent.at_most, known
     found, points = _known(piece, Extent(dimension, most), witness)
     try:
-        for larger, other in chain([known], larger_parts(system, dimension)):
+        for larger, other in chain([known], larger_parts(off_borders(system), dimension)):
             found, points = _known(piece, Extent(larger, most), other)
             if larger == most:
                 return found, points
@@ -215,13 +226,18 @@ def _dependent(piece: Piece, system: RealSystem, patch: Patch) -> tuple[Piece, P
     if cut is not None and cut.dimension < 0:
         verdict = Verdict.no(cut.certainty, reason="there is no complex solution")
         return replace(piece, verdict=verdict, extent=EMPTY), ()
-    if cut is not None and cut.point is not None and chart.faithful:
+    if cut is not None and cut.point is not None and chart.faithful and _is_inside(cut.point, chart.system):
         dimension = cut.dimension - beside
         near = _unsolved(chart, patch, cut.point)
         witness = find_witness(system, tries=SEARCHES, dimension=dimension, near=[near])
         if witness is not None:
             return _known(piece, Extent(dimension, dimension, cut.certainty), witness)
     return _by_components(piece, system)
+
+
+def _is_inside(witness: Witness, system: RealSystem) -> bool:
+    """Whether no inequality is an equality at a point, so that the set is all of the zeros near it."""
+    return all(witness.sign(witness.ring.convert(p)) > 0 for p in system.nonnegative if p)
 
 
 def _by_components(piece: Piece, system: RealSystem) -> tuple[Piece, Points]:
@@ -266,14 +282,22 @@ def _lies_in(point: RealPoint, loci: tuple[Equations, ...]) -> bool:
 
 
 def _finite(
-    piece: Piece, solutions: Sequence[RealPoint], system: RealSystem, elsewhere: tuple[Equations, ...]
+    piece: Piece,
+    solutions: Sequence[RealPoint],
+    system: RealSystem,
+    elsewhere: tuple[Equations, ...],
+    known: Certainty,
 ) -> tuple[Piece, Points]:
+    """The points of a set; known: how it is that the solutions are all that there are, or may be in it."""
     points = tuple(p for p in solutions if system.admits(p) and not _lies_in(p, elsewhere))
     if not points:
-        verdict = Verdict.no(reason="none of finitely many complex solutions is real, feasible and new")
+        verdict = Verdict.no(
+            known, reason="none of finitely many complex solutions is real, feasible and new"
+        )
         return replace(piece, verdict=verdict, extent=EMPTY, points=0, components=0), ()
     count = len(points)
-    found = replace(piece, verdict=Verdict.yes(), extent=Extent(0, 0), points=count, components=count)
+    extent = Extent(0, 0, known)
+    found = replace(piece, verdict=Verdict.yes(), extent=extent, points=count, components=count)
     return found, points
 
 
@@ -297,20 +321,31 @@ def _counted(
 ) -> tuple[Piece, Points]:
     """The same with all points where the real dimension is 0, although there may be more complex zeros.
 
-    Each real point is a connected component then, off the exclusions, and sample points meet all of them.
+    Where no inequality is an equality, each is a connected component of the equations' zeros off the
+    exclusions, and sample points meet all of them; else of the zeros with those equalities.
     """
     if piece.dimension != 0 or piece.points is not None:
         return piece, points
     try:
-        borders = tuple(_sum_of_squares(group) for group in system.exclusions)
-        samples = sample_points(system.ring, system.closed_equations, nonzero=borders)
+        away = tuple(_sum_of_squares(group) for group in system.exclusions)
+        with certainties() as seen:
+            samples = list(_samples(system, away, system.nonnegative))
     except Undecided as reason:
         return replace(piece, extent=replace(piece.extent, open=f"points not counted: {reason}")), points
     distinct: list[RealPoint] = []
     for point in samples:
         if not any(point.coincides(other) for other in distinct):
             distinct.append(point)
-    return _finite(piece, distinct, system, elsewhere)
+    return _finite(piece, distinct, system, elsewhere, weakest(piece.extent.bounded, *seen))
+
+
+def _samples(system: RealSystem, away: Equations, borders: Equations) -> Iterator[RealPoint]:
+    """A point on each connected component of the zeros, and of those on one border, on two, and so on."""
+    found = sample_points(system.ring, system.closed_equations, nonzero=away)
+    yield from found
+    for k, border in enumerate(borders if found else ()):
+        on_it = replace(system, equations=(*system.equations, border))
+        yield from _samples(on_it, away, borders[k + 1 :])
 
 
 def _sum_of_squares(group: Equations) -> Polynomial:

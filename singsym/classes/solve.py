@@ -22,7 +22,7 @@ from singsym.classes.work import Runner
 from singsym.elimination.budget import Budget, Undecided
 from singsym.elimination.conditions import Condition, Conditions, conditions
 from singsym.elimination.ideal import Ideal
-from singsym.elimination.verdict import Verdict
+from singsym.elimination.verdict import Certainty, Verdict, certainties, weakest
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import Mechanism
 from singsym.varieties.cells import Cell
@@ -70,12 +70,16 @@ class SolutionPiece:
 
 @dataclass(frozen=True)
 class Solution:
-    """The solution set of a condition, piece by piece, with what is undecided."""
+    """The solution set of a condition, piece by piece, with what is undecided.
+
+    certainty: how it is known that there is no more.
+    """
 
     condition: Condition
     equation: VelocityEquation
     pieces: tuple[SolutionPiece, ...]
     doubts: tuple[str, ...] = ()
+    certainty: Certainty = "proven"
 
     @property
     def verdict(self) -> Verdict:
@@ -85,7 +89,7 @@ class Solution:
                 return piece.verdict
         if self.undecided:
             return Verdict.undecided("; ".join(self.doubts))
-        return Verdict.no(reason="no feasible configuration satisfies the condition")
+        return Verdict.no(self.certainty, reason="no feasible configuration satisfies the condition")
 
     @property
     def undecided(self) -> bool:
@@ -134,15 +138,17 @@ class LocusTask:
 
 @dataclass(frozen=True)
 class Solved:
-    """The pieces of a closed part, and why there may be more."""
+    """The pieces of a closed part, why there may be more, and how it is known that there are no others."""
 
     pieces: tuple[SolutionPiece, ...] = ()
     doubt: str = ""
+    certainty: Certainty = "proven"
 
     @property
     def provisional(self) -> bool:
         """Whether a larger budget could say more."""
-        return bool(self.doubt) or any(piece.verdict.is_undecided for piece in self.pieces)
+        open_pieces = any(piece.verdict.is_undecided for piece in self.pieces)
+        return bool(self.doubt) or open_pieces or self.certainty != "proven"
 
 
 def solve(
@@ -245,17 +251,19 @@ def _closed(condition: Condition, found: Conditions, runner: Runner, limits: Lim
     pieces = [p for part in solved for p in part.pieces if not p.verdict.is_no]
     doubts = [part.doubt for part in solved if part.doubt]
     doubts += [p.verdict.reason for p in pieces if p.verdict.is_undecided]
-    return Solution(condition, found.equation, tuple(pieces), tuple(dict.fromkeys(doubts)))
+    known = weakest(*(part.certainty for part in solved))
+    return Solution(condition, found.equation, tuple(pieces), tuple(dict.fromkeys(doubts)), known)
 
 
 def solve_locus(task: LocusTask) -> Solved:
     """Decompose a closed part and find real points on each component: the task that workers run."""
     feasible = task.feasible
     try:
-        with Budget(work=task.seconds, memory_mb=task.memory_mb):
+        with Budget(work=task.seconds, memory_mb=task.memory_mb), certainties() as seen:
             components = decompose((*task.path, *task.equations), feasible.nonzero, ring=feasible.ring)
             kept = [c for c in components if not is_excluded(c, feasible)]
-            return Solved(tuple(_real(task, component) for component in kept))
+            pieces = tuple(_real(task, component) for component in kept)
+        return Solved(pieces, certainty=weakest(*seen))
     except Undecided as reason:
         return Solved((), str(reason))
 
@@ -286,8 +294,11 @@ def _from_classes(condition: Condition, whole: Classification) -> Solution:
     """The union of the classes whose configurations satisfy the condition."""
     wanted = [c for c in whole.classes if c.types & HOLDS[condition.label]]
     doubts = [c.verdict.reason for c in wanted if c.verdict.is_undecided]
+    doubts += [c.extent.open for c in wanted if c.verdict.is_yes and c.dimension is None]
+    known = weakest(*(c.verdict.certainty for c in wanted if c.verdict.is_no))
     pieces = sorted((p for c in wanted for p in c.pieces), key=lambda p: (-(p.dimension or 0), str(p.path)))
-    return Solution(condition, whole.equation, tuple(map(_as_solution, pieces)), tuple(dict.fromkeys(doubts)))
+    shown = tuple(map(_as_solution, pieces))
+    return Solution(condition, whole.equation, shown, tuple(dict.fromkeys(doubts)), known)
 
 
 def _as_solution(piece: Piece) -> SolutionPiece:

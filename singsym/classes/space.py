@@ -80,17 +80,23 @@ def _is_smooth(
     """Whether the whole space is smooth, and what is to be said of it."""
     increased = [c for c in classes if SingularityType.IIM in c.types]
     parameters = conditions.equation.space.parameters
-    if mechanism is None or not mechanism.translating:
-        # of a mode alone the loop equations are not all, so that the lemmas say nothing of it
+    # of a mode alone the loop equations are not all, and an L of one's own need not be their derivative: the
+    # lemmas say nothing of these
+    if mechanism is not None and not mechanism.translating:
         if all(c.verdict.is_no for c in increased):
-            return "yes", ""
-        if any(c.verdict.is_yes for c in increased) and mechanism and _is_complete_intersection(conditions):
+            return "yes", _resting_on_primes(increased)
+        if any(c.verdict.is_yes for c in increased) and _is_complete_intersection(conditions):
             if not parameters:
                 return "no", "singular exactly where there is IIM"
             names = ", ".join(parameters)
             why = f"smooth or not with {names} as variables; for fixed values singular where there is IIM"
             return _with_parameters(conditions), why
     return "undecided", ""
+
+
+def _resting_on_primes(increased: Sequence[ClassResult]) -> str:
+    proven = all(c.verdict.certainty == "proven" for c in increased)
+    return "" if proven else "that it is smooth rests on random primes"
 
 
 def _with_parameters(conditions: Conditions) -> str:

@@ -41,3 +41,11 @@ def test_both_conditions_at_once_is_increased_mobility():
     result = classified(y, y)
     found = [c for c in result.classes if c.verdict.is_yes]
     assert [(c.types, c.points) for c in found] == [(RI | RO | SingularityType.IIM, 2)]
+
+
+def test_ranks_of_a_given_matrix_do_not_say_whether_the_space_is_smooth():
+    """T + A = 0 never loses rank, on the cross x y = 0, which is singular at (0, 0)."""
+    x, y = sympy.symbols("x y")
+    equation = from_sympy(sympy.Matrix([[1, 1]]), [("T", "output"), ("A", "input")], [x * y])
+    (space,) = classify_equation(None, equation, cache=False).configuration_space
+    assert (space.dimension, space.smooth) == (1, "undecided")

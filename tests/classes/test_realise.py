@@ -8,8 +8,9 @@ from math import isclose, pi
 import pytest
 
 from singsym.classes.classify import classify
+from singsym.classes.curves import CurveTask, count
 from singsym.classes.explore import Found
-from singsym.classes.realise import CurveTask, Names, RealTask, count, realise
+from singsym.classes.realise import Names, RealTask, realise
 from singsym.classes.strata import Stratum
 from singsym.classes.types import Defects
 from singsym.classes.types import SingularityType as T
@@ -44,6 +45,28 @@ def test_a_stratum_below_a_known_dimension_is_left() -> None:
     assert (left.dimension, left.extent.at_most, left.verdict.is_undecided) == (None, 2, True)
 
 
+def test_a_set_within_its_border_alone() -> None:
+    """x >= 1 leaves one point of the circle and of the sphere, x^2 >= 1 two, x >= 0 >= x a great circle."""
+    x, y = Ring(("x", "y")).gens
+    X, Y, Z = Ring(("x", "y", "z")).gens
+    circle, sphere = x**2 + y**2 - 1, X**2 + Y**2 + Z**2 - 1
+    found = []
+    for surface, nonnegative in (
+        (circle, (x - 1,)),
+        (circle, (x**2 - 1,)),
+        (circle, (x, -x)),
+        (circle, (x,)),
+        (sphere, (X - 1,)),
+        (sphere, (X, -X)),
+    ):
+        stratum = Found((), Stratum((surface,), Defects(0, 0, 0, 0)))
+        (piece,) = realise(
+            RealTask(stratum, RealSystem(surface.ring, (), nonnegative=nonnegative), Names())
+        ).pieces
+        found.append((piece.dimension, piece.points))
+    assert found == [(0, 1), (0, 2), (0, 2), (1, None), (0, 1), (1, None)]
+
+
 @pytest.mark.engines
 def test_a_dimension_bounded_modulo_a_prime(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where no Groebner basis ends, random hyperplanes bound it: of a curve by 2, but not by 0."""
@@ -54,6 +77,7 @@ def test_a_dimension_bounded_modulo_a_prime(monkeypatch: pytest.MonkeyPatch) -> 
             raise Undecided("takes too long")
 
     monkeypatch.setattr("singsym.classes.dimension_bounds.Ideal", Endless)
+    monkeypatch.setattr("singsym.classes.dimension_bounds.is_dimension_at_most", lambda *_: False)
     ring = Ring(("x", "y", "z"))
     x, y, z = ring.gens
     circle = Found((), Stratum((x**2 + y**2 - 1, z - x * y), Defects(0, 0, 0, 0)))
@@ -67,6 +91,6 @@ def test_a_dimension_bounded_modulo_a_prime(monkeypatch: pytest.MonkeyPatch) -> 
 def test_a_real_curve_of_complex_surfaces_is_not_counted() -> None:
     """The real zeros of x^2 + y^2 in space are a line, the complex ones two planes."""
     x, y, _ = Ring(("x", "y", "z")).gens
-    counted = count(CurveTask((x**2 + y**2,)))
+    counted = count(CurveTask(((x**2 + y**2,),), ((),)))
     assert counted.components is None
     assert "dimension 2" in counted.reason
