@@ -11,6 +11,7 @@ from concurrent.futures import Executor
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from functools import cached_property
+from math import inf
 
 from singsym.classes.cache import user_cache
 from singsym.classes.conclusions import (
@@ -24,7 +25,7 @@ from singsym.classes.conclusions import (
 from singsym.classes.coordinates import local_coordinates
 from singsym.classes.curves import Counted, CurveTask, count
 from singsym.classes.explore import Branch, Found
-from singsym.classes.extent import union
+from singsym.classes.extent import Extent, union
 from singsym.classes.processes import processes
 from singsym.classes.realise import Names, Realised, RealTask, realise
 from singsym.classes.result import Classification, Locus, Piece
@@ -45,8 +46,6 @@ from singsym.varieties.real.witness import RealSystem
 
 FIRST_SECONDS, SECOND_SECONDS = 1.0, 5.0
 """So long each stratum is looked at before it is known whether more time is worth while."""
-BOUND_SECONDS = 30.0
-"""So long one is looked at last of which only a larger dimension would matter."""
 
 
 @dataclass(frozen=True)
@@ -187,15 +186,15 @@ class _Work:
     def _pieces(self, found: Sequence[Found]) -> list[Realised]:
         """The real pieces of all strata; only what may change the answer for its class gets much time.
 
-        After a first look at all, those in doubt get a second and a last one, which is short where only a
-        dimension larger than that known of the class would matter.
+        After a first look at all, those in doubt get a second one; a last one only those whose class is not
+        known to occur, or is known as a curve or points, which are to be counted.
         """
         limits = self.limits
         tasks = [self._task(f, f.stratum.defects.delta) for f in found]
         first = [replace(task, seconds=limits.part(FIRST_SECONDS)) for task in tasks]
         realised = self.runner.map(realise, first, "real points")
         self._look_again(tasks, realised, limits.part(SECOND_SECONDS), "real points, second look")
-        self._look_again(tasks, realised, limits.seconds, "real points, at length")
+        self._look_again(tasks, realised, limits.seconds, "real points, at length", most=1)
         return realised
 
     def _task(self, found: Found, delta: int | None) -> RealTask:
@@ -212,25 +211,37 @@ class _Work:
         return replace(task, most=most, coordinates=coordinates)
 
     def _look_again(
-        self, tasks: Sequence[RealTask], realised: list[Realised], seconds: float | None, stage: str
+        self,
+        tasks: Sequence[RealTask],
+        realised: list[Realised],
+        seconds: float | None,
+        stage: str,
+        most: float = inf,
     ) -> None:
-        """Realise strata in doubt once more, those of classes of unknown or small dimension first."""
+        """Realise strata in doubt once more, those of classes of unknown or small dimension first.
+
+        Where only a dimension larger than that known of the class would matter, a bound is looked for.
+        most: the largest known dimension of the classes of strata that are looked at.
+        """
         known = _dimensions(piece for part in realised for piece in part.pieces)
         least = [min(known.get(p.defects.types, 0) for p in part.pieces) for part in realised]
         doubtful = [
             i
             for i, part in enumerate(realised)
-            if any(_open(p, known.get(p.defects.types)) for p in part.pieces)
+            if least[i] <= most and any(_open(p, known.get(p.defects.types)) for p in part.pieces)
         ]
         doubtful.sort(key=lambda i: least[i])
-        again = []
-        for i in doubtful:
-            task = replace(tasks[i], seconds=seconds)
-            if least[i] > 1 and not any(p.verdict.is_yes for p in realised[i].pieces):
-                task = replace(task, seconds=min(seconds or BOUND_SECONDS, BOUND_SECONDS), known=least[i])
-            again.append(task)
+        again = [
+            replace(
+                tasks[i],
+                seconds=seconds,
+                known=least[i] if least[i] > 1 else None,
+                seen=least[i] > 1 and any(p.verdict.is_yes for p in realised[i].pieces),
+            )
+            for i in doubtful
+        ]
         for i, part in zip(doubtful, self.runner.map(realise, again, stage), strict=True):
-            realised[i] = part
+            realised[i] = _merged(realised[i], part)
 
     def _singular_loci(self) -> SingularLoci | None:
         """The alternatives of (4), (5), (iii) and (vi), where they are known and not everything."""
@@ -344,6 +355,22 @@ def _dimensions(pieces: Iterable[Piece]) -> dict[SingularityType, int]:
             types = piece.defects.types
             found[types] = max(piece.extent.at_least, found.get(types, 0))
     return found
+
+
+def _merged(before: Realised, after: Realised) -> Realised:
+    """What two looks at a stratum say together: a point stays known where the second is for a bound only."""
+    decided = any(not p.verdict.is_undecided for p in after.pieces)
+    if decided or not any(p.verdict.is_yes for p in before.pieces):
+        return after
+    pairs = zip(before.pieces, after.pieces, strict=True)
+    return Realised(tuple(replace(p, extent=_with_bound(p.extent, q.extent)) for p, q in pairs))
+
+
+def _with_bound(extent: Extent, other: Extent) -> Extent:
+    """A dimension with the smaller of two bounds from above."""
+    known = [e for e in (extent, other) if e.at_most is not None]
+    best = min(known, key=lambda e: e.at_most or 0, default=extent)
+    return replace(extent, at_most=best.at_most, bounded=best.bounded, open=other.open or extent.open)
 
 
 def _open(piece: Piece, known: int | None) -> bool:

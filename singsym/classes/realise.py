@@ -69,8 +69,8 @@ class RealTask:
     """A stratum to be realised on a feasible set, within a budget.
 
     most: a bound of the real dimension, if there is one; coordinates: local ones of the space wherever the
-    stratum has that dimension (see `coordinates`); known: a dimension, where only a larger one of the
-    stratum would matter.
+    stratum has that dimension (see `coordinates`); known: a dimension, where only a larger one of the stratum
+    would matter; seen: whether a point of it is known.
     """
 
     found: Found
@@ -81,6 +81,7 @@ class RealTask:
     most: int | None = None
     coordinates: tuple[JointValue, ...] = ()
     known: int | None = None
+    seen: bool = False
 
     def unfinished(self, reason: str) -> Realised:
         """A piece for each image of the stratum, undecided for this reason."""
@@ -115,6 +116,10 @@ def realise(task: RealTask) -> Realised:
                 reason = f"only a dimension above {task.known} would matter"
                 extent = Extent(-1, bound.dimension, bound.certainty, reason)
                 piece = replace(piece, verdict=Verdict.undecided(reason), extent=extent)
+            elif task.seen:
+                raise Undecided(
+                    f"that there is no part of a dimension above {task.known} was not proven in time"
+                )
             else:
                 piece, points = _realised(piece, system, task)
         if piece.verdict.is_no:
