@@ -20,6 +20,7 @@ from singsym.classes.conclusions import (
     classes_of,
     largest_inside,
     locus_of,
+    remarks_of,
     with_numbers,
 )
 from singsym.classes.coordinates import local_coordinates
@@ -36,9 +37,10 @@ from singsym.classes.symmetry import image, reflections
 from singsym.classes.types import Defects, SingularityType
 from singsym.classes.units import Border
 from singsym.classes.work import Runner
-from singsym.elimination import engines
+from singsym.elimination import chance, engines
 from singsym.elimination.budget import Budget
 from singsym.elimination.conditions import Conditions, Factor, conditions
+from singsym.elimination.verdict import weakest
 from singsym.kinematics.reduction import reduce
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import Mechanism
@@ -181,6 +183,8 @@ class _Work:
             classes,
             tuple(name for name in engines.allowed() if engines.has(name)),
             time.monotonic() - started,
+            chance.seed(),
+            remarks_of(self.conditions),
         )
 
     def _pieces(self, found: Sequence[Found]) -> list[Realised]:
@@ -264,6 +268,7 @@ class _Work:
         """
         factors = [(label, factor) for label in ("4", "5") for factor in self.conditions[label].factors]
         singular = union((p.extent for p in pieces if p.defects.types), explored.doubts_of_any)
+        singular = replace(singular, bounded=weakest(singular.bounded, explored.certainty))
         known = [largest_inside(factor, pieces) for _, factor in factors]
         bounded = [
             self.equation.n > 1 and piece is not None and piece.extent.at_least == singular.dimension

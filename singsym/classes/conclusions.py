@@ -16,9 +16,10 @@ from singsym.classes.search import Exploration
 from singsym.classes.steps import excluded_in, found_in
 from singsym.classes.types import SingularityClass, SingularityType, feasible_classes
 from singsym.elimination.attempts import attempt
-from singsym.elimination.conditions import Factor
+from singsym.elimination.conditions import Conditions, Factor
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.verdict import Certainty, Verdict, unnoted, weakest
+from singsym.kinematics.mobility import check_mobility
 from singsym.polynomials import Polynomial
 from singsym.varieties.real.sampling import is_large
 
@@ -43,6 +44,24 @@ def classes_of(
         own = [p for p in pieces if p.defects.types == candidate.types]
         results.append(_class(candidate, occurring, explored, own, counting))
     return tuple(results)
+
+
+def remarks_of(conditions: Conditions) -> tuple[str, ...]:
+    """Where (4) or (5) is no list of factors: it holds everywhere, seems to, or is not written out."""
+    found = []
+    for label, name in (("4", "L_I"), ("5", "L_O")):
+        condition = conditions[label]
+        if condition.everywhere:
+            found.append(f"({label}) holds in every configuration")
+        elif condition.alternatives is None:
+            said = f"({label}) is not written out in factors"
+            seen = check_mobility(conditions.equation)
+            if seen.samples and seen.ranks[name] < conditions.equation.N:
+                ranks = f"rank {name} = {seen.ranks[name]} < N = {conditions.equation.N}"
+                where = f"at all {seen.samples} random configurations"
+                said += f"; numerically {ranks} {where}: it seems to hold everywhere"
+            found.append(said)
+    return tuple(found)
 
 
 def with_numbers(part: Realised, counted: Counted | None) -> list[Piece]:

@@ -24,6 +24,7 @@ from singsym.classes.symmetry import IDENTITY, Reflection, compose, image, keeps
 from singsym.classes.types import SingularityType
 from singsym.elimination import engines
 from singsym.elimination.budget import Budget, Undecided
+from singsym.elimination.ideal import Ideal
 from singsym.elimination.verdict import Certainty, certainties, weakest
 from singsym.polynomials import Polynomial
 from singsym.varieties.circles import unit_circles
@@ -243,14 +244,14 @@ class _Exploring:
     ) -> None:
         """The strata of a ground; `known`: other grounds of the same patch, looked at before."""
         branch = self.branch
-        part = self._part(images, known)
+        part = self._part(images, tuple(image(locus, r) for locus in known for r in images))
         found = ranked(
             branch.problem, ground, branch.admitted, branch.first, dict(branch.least), branch.evident
         )
         if found.stratum is not None:
             loci = (*branch.away, *found.stratum.loci)
             stratum = replace(found.stratum, loci=loci, elsewhere=part.elsewhere)
-            self.found.append(Found(branch.path, stratum, part.images))
+            self.found += _apart(Found(branch.path, stratum, part.images))
         taken: tuple[Equations, ...] = ()
         for whole, least in found.loci.items():
             for locus in split_product(whole):
@@ -272,6 +273,34 @@ class _Exploring:
         branch = self.branch
         all_images = tuple(dict.fromkeys(compose(r, other) for r in branch.images for other in images))
         return replace(branch, images=all_images, elsewhere=(*branch.elsewhere, *self.earlier, *known))
+
+
+def _apart(found: Found) -> list[Found]:
+    """A stratum with its images, each by itself where what is searched elsewhere is not its own image.
+
+    What an image shares with other strata is then not the image of what the stratum shares with them.
+    """
+    elsewhere = {frozenset(p.primitive() for p in locus) for locus in found.stratum.elsewhere}
+    mapped = (image(locus, r) for r in found.images for locus in found.stratum.elsewhere)
+    if all(frozenset(p.primitive() for p in locus) in elsewhere for locus in mapped):
+        return [found]
+    return [_image_of(found, r) for r in found.images]
+
+
+def _image_of(found: Found, reflection: Reflection) -> Found:
+    stratum = found.stratum
+    component = stratum.component
+    if component is not None:
+        ideal = component.ideal
+        turned = Ideal(ideal.ring, image(ideal.generators, reflection), ideal.given)
+        component = replace(component, ideal=turned)
+    own = replace(
+        stratum,
+        equations=image(stratum.equations, reflection),
+        loci=tuple(image(locus, reflection) for locus in stratum.loci),
+        component=component,
+    )
+    return Found(image(found.path, reflection), own)
 
 
 def _is_soon_empty(system: RealSystem) -> bool:

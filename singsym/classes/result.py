@@ -174,7 +174,8 @@ class SpacePiece:
 class Classification:
     """Everything found out about a mechanism's singularities; see `as_json` for the fields in plain data.
 
-    mechanism: None where a velocity equation was given by itself.
+    mechanism: None where a velocity equation was given by itself; seed: of all random choices; remarks: what
+    is to be said of the conditions as a whole.
     """
 
     mechanism: Mechanism | None
@@ -185,11 +186,18 @@ class Classification:
     classes: tuple[ClassResult, ...]
     engines: tuple[str, ...]
     seconds: float = field(compare=False)
+    seed: int = field(default=0, compare=False)
+    remarks: tuple[str, ...] = ()
 
     @property
     def undecided(self) -> bool:
         """Whether a class, a dimension or a number is open, of the classes, the loci or the space."""
         return any(True for _ in self.open_questions())
+
+    def notes(self) -> tuple[str, ...]:
+        """All remarks, of the whole, of loci and of classes, each once."""
+        of_loci, of_classes = (x.remark for x in self.loci), (x.remark for x in self.classes)
+        return tuple(filter(None, dict.fromkeys((*self.remarks, *of_loci, *of_classes))))
 
     def open_questions(self) -> Iterator[tuple[str, str]]:
         """What is not decided, each with the reason."""
@@ -272,7 +280,9 @@ class Classification:
                 for result in self.classes
             ],
             "open": [{"what": what, "reason": reason} for what, reason in self.open_questions()],
+            "remarks": list(self.notes()),
             "engines": list(self.engines),
+            "seed": self.seed,
             "seconds": round(self.seconds, 3),
         }
 

@@ -410,6 +410,8 @@ def ranked(
     loci: dict[tuple[Polynomial, ...], dict[str, int]] = {}
 
     def examine(name: str) -> None:
+        # the matrix is taken apart off these, so that nothing follows for its rank on them
+        earlier = frozenset(loci)
         certifier = ground.certifier(feasible, loci)
         matrix = problem.matrices[name].map(ground.patch.restrict)
         parts = simplest_blocks(matrix, certifier, problem.outputs(name))
@@ -429,7 +431,7 @@ def ranked(
             alternatives, exact = union_of_loci(block.minors, certifier)
             for locus in alternatives:
                 there = loci.setdefault(locus, {})
-                if block.exact and exact and lower > 0:
+                if block.exact and exact and lower > 0 and locus not in earlier:
                     there[name] = max(lower, there.get(name, 0))
 
     examine(first)
@@ -440,7 +442,7 @@ def ranked(
         possible = (_OWN[first], _BOTH) if defect[first] else (SingularityType(0), _OWN[other])
         if set(possible) <= set(evident):
             return Ranked(None, loci)
-    before = dict(loci)
+    before = {locus: dict(there) for locus, there in loci.items()}
     examine(other)
     defects = Defects(defect["L"], defect["L_p"], defect["L_I"], defect["L_O"])
     if other not in relevant(defects) and highest[other]:

@@ -142,7 +142,8 @@ def solution_data(name: str, solutions: Iterable[Solution]) -> dict[str, Any]:
                 "condition": s.condition.label,
                 "statement": s.condition.statement,
                 "verdict": str(s.verdict.answer),
-                "dimension": s.dimension,
+                "dimension": None if s.undecided else s.dimension,
+                "at_least": s.dimension,
                 "pieces": [
                     {
                         "equations": [str(p) for p in piece.path],

@@ -92,7 +92,7 @@ def _table(mechanism: Mechanism, found: Sequence[ClassResult]) -> str:
     for result in found:
         number = result.singularity_class.number
         parts = _count(result.points, "point") or _count(result.components, "component")
-        dimension = "undecided" if result.dimension is None else str(result.dimension)
+        dimension = str(result.extent)
         link = f'<a href="{page_name(mechanism.name)}#class-{number}">{number}</a>'
         rows.append(("", (link, escape(result.singularity_class.name), dimension, parts)))
     label = f"Classes of {mechanism.title or mechanism.name}"

@@ -267,10 +267,10 @@ def classification_latex(result: Classification) -> str:
     if result.parameters_note:
         parts.append(f"Here {escaped(result.parameters_note)}.")
     parts += [_class(c, result) for c in result.classes if c.verdict.is_yes]
-    doubts = [c for c in result.classes if c.verdict.is_undecided]
+    doubts = tuple(result.open_questions())
     if doubts:
-        items = "\n".join(f"\\item ({c.types}): {escaped(c.verdict.reason)}" for c in doubts)
-        parts += [r"\subsection*{Undecided}", f"\\begin{{itemize}}\n{items}\n\\end{{itemize}}"]
+        items = "\n".join(f"\\item {escaped(what)}: {escaped(reason)}" for what, reason in doubts)
+        parts += [r"\subsection*{Open}", f"\\begin{{itemize}}\n{items}\n\\end{{itemize}}"]
     return "\n\n".join(parts)
 
 
@@ -281,7 +281,7 @@ def _count(number: int | None) -> str:
 def _loci(loci: Sequence[Locus]) -> str:
     headers = ("", "locus", "dimension", "points", "components")
     rows = [
-        (f"({x.condition})", _locus_name(x), _count(x.dimension), _count(x.points), _count(x.components))
+        (f"({x.condition})", _locus_name(x), str(x.extent), _count(x.points), _count(x.components))
         for x in loci
     ]
     wide = r">{\raggedright\arraybackslash}p{.55\linewidth}"
@@ -313,7 +313,7 @@ def _class_table(result: Classification) -> str:
             str(c.types),
             str(c.verdict.answer),
             known_by(result, c.singularity_class.number),
-            _count(c.dimension),
+            "" if c.verdict.is_no else str(c.extent),
             _count(c.points),
             _count(c.components),
             ", ".join(c.steps),
@@ -334,7 +334,7 @@ def _class(result: ClassResult, whole: Classification) -> str:
         ]
         counts = f", {group.points} points" if group.points is not None else ""
         where = r" \emph{and} ".join(said) or "everywhere"
-        items.append(rf"\item {where}: dimension {_count(group.dimension)}{counts}")
+        items.append(rf"\item {where}: dimension {group.extent}{counts}")
     listed = "\\begin{itemize}\n" + "\n".join(items) + "\n\\end{itemize}"
     shown = [f"For instance {_configuration(w, whole.equation)}." for w in result.witnesses[:1]]
     return "\n".join([head, listed, *shown])

@@ -9,7 +9,10 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from singsym.elimination.verdict import described
+
 if TYPE_CHECKING:
+    from singsym.classes.extent import Extent
     from singsym.classes.result import Classification, Equations, Locus, Piece
     from singsym.kinematics.velocity import VelocityEquation
 
@@ -20,12 +23,14 @@ class Group:
 
     path: Equations
     words: tuple[str, ...]
-    dimension: int | None
+    extent: Extent
     points: int | None
 
 
 def grouped(pieces: Iterable[Piece], loci: Iterable[Locus]) -> tuple[Group, ...]:
     """The pieces by their paths in order of appearance, points added up."""
+    from singsym.classes.extent import union
+
     words = {locus.factor: locus.words for locus in loci}
     by_path: dict[Equations, list[Piece]] = {}
     for piece in pieces:
@@ -33,9 +38,10 @@ def grouped(pieces: Iterable[Piece], loci: Iterable[Locus]) -> tuple[Group, ...]
     groups = []
     for path, own in by_path.items():
         counts = [piece.points for piece in own if piece.points is not None]
-        dimension = max((p.dimension for p in own if p.dimension is not None), default=None)
         points = sum(counts) if len(counts) == len(own) else None
-        groups.append(Group(path, tuple(words.get(p, "") for p in path), dimension, points))
+        groups.append(
+            Group(path, tuple(words.get(p, "") for p in path), union(p.extent for p in own), points)
+        )
     return tuple(groups)
 
 
@@ -73,4 +79,4 @@ def known_by(result: Classification, number: int) -> str:
     found = next(c for c in result.classes if c.singularity_class.number == number)
     if found.singularity_class not in feasible_classes(result.equation.n):
         return f"impossible for n = {result.equation.n}"
-    return "" if found.verdict.is_undecided else str(found.verdict.certainty)
+    return "" if found.verdict.is_undecided else described(found.verdict.certainty)

@@ -104,14 +104,14 @@ def _count(number: int | None, one: str) -> str:
 
 def _summary(classification: Classification) -> str:
     space = [
-        f"<li>Configuration space: dimension {_known(p.dimension)}, smooth: {escape(p.smooth)}"
+        f"<li>Configuration space: dimension {p.extent}, smooth: {escape(p.smooth)}"
         f"{'; ' + escape(p.remark) if p.remark else ''}</li>"
         for p in classification.configuration_space
     ]
     rows = []
     for i, locus in enumerate(classification.loci):
         style = "no" if locus.verdict.is_no else "undecided" if locus.verdict.is_undecided else ""
-        size = "empty" if locus.verdict.is_no else _known(locus.dimension)
+        size = str(locus.extent)
         count = _count(locus.points, "point") or _count(locus.components, "component")
         link = f'<a href="#locus-{i}">({escape(locus.condition)})</a>'
         rows.append((style, (link, escape(locus.words), size, count, _locus_name(classification, i))))
@@ -120,12 +120,17 @@ def _summary(classification: Classification) -> str:
     return (
         f"<ul>{''.join(space)}</ul>"
         "<p>Conditions (4) and (5), det L<sub>I</sub> = 0 and det L<sub>O</sub> = 0, in factors:</p>"
-        f"{loci}<h3>The 21 classes</h3>{_class_table(classification)}"
+        f"{loci}<h3>The 21 classes</h3>{_class_table(classification)}{_open(classification)}"
     )
 
 
-def _known(number: int | None) -> str:
-    return "undecided" if number is None else str(number)
+def _open(classification: Classification) -> str:
+    """What is not decided, and what is said of the whole."""
+    lines = [f"<li>{escape(remark)}</li>" for remark in classification.remarks]
+    lines += [
+        f"<li>Open: {escape(what)}: {escape(why)}</li>" for what, why in classification.open_questions()
+    ]
+    return f"<ul>{''.join(lines)}</ul>" if lines else ""
 
 
 def _locus_name(classification: Classification, index: int) -> str:
@@ -145,7 +150,7 @@ def _class_table(classification: Classification) -> str:
         style = "no" if verdict.is_no else "undecided" if verdict.is_undecided else ""
         count = _count(result.points, "point") or _count(result.components, "component")
         there = {"yes": "yes", "no": "no", "undecided": "undecided"}[str(verdict.answer)]
-        dimension = "" if verdict.is_no else _known(result.dimension)
+        dimension = "" if verdict.is_no else str(result.extent)
         cells = (
             f'<a href="#{target}">{number}</a>',
             escape(result.singularity_class.name),
@@ -178,7 +183,7 @@ def _class(classification: Classification, result: ClassResult) -> str:
     if classification.mechanism is not None and result.witnesses:
         picture = plot_class(classification, result)
         drawn = html.figure(picture, f"figure-{number}", _velocities(classification, result))
-    size = [f"dimension {_known(result.dimension)}"]
+    size = [f"dimension {result.extent}"]
     size += [text for text in (_count(result.points, "point"),) if text]
     if not result.points and result.components:
         size.append(_count(result.components, "component") + " (closed up)")

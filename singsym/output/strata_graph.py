@@ -39,7 +39,7 @@ def strata_graph(classification: Classification, seconds: float = 10.0) -> netwo
     regular: _Key = (0, ())
     graph.add_node(regular, number=0, label="regular", dimension=classification.equation.n, points=None)
     for key, (label, pieces) in groups.items():
-        dimension = max((p.dimension for p in pieces if p.dimension is not None), default=0)
+        dimension = max((p.extent.at_least for p in pieces), default=0)
         points = sum(p.points or 0 for p in pieces) if dimension == 0 else None
         graph.add_node(key, number=key[0], label=label, dimension=dimension, points=points)
         graph.add_edge(key, regular, whole=True)

@@ -196,10 +196,12 @@ def classification_page(result: Classification) -> Page:
     for found in result.classes:
         if found.verdict.is_yes:
             blocks.append(_class_text(found, result))
-    doubts = tuple((str(c.types), c.verdict.reason) for c in result.classes if c.verdict.is_undecided)
+    if notes := result.notes():
+        blocks.append("\n".join(notes))
+    doubts = tuple(result.open_questions())
     if doubts:
-        blocks.append(Grid(("types", "why"), doubts, "Undecided"))
-    blocks.append(f"Engines: {', '.join(result.engines)}; {result.seconds:.1f} s")
+        blocks.append(Grid(("open", "why"), doubts, "Open"))
+    blocks.append(f"Engines: {', '.join(result.engines)}; seed {result.seed}; {result.seconds:.1f} s")
     return tuple(blocks)
 
 
@@ -235,7 +237,7 @@ def _class_row(result: ClassResult, whole: Classification) -> tuple[str, ...]:
         str(result.types),
         str(verdict.answer),
         known_by(whole, result.singularity_class.number),
-        _dimension(result.dimension),
+        "" if verdict.is_no else str(result.extent),
         _count(result.points),
         _count(result.components),
         ", ".join(result.steps),
@@ -249,7 +251,7 @@ def _class_text(result: ClassResult, whole: Classification) -> str:
         said = [w or f"{p.short_text(6)} = 0" for p, w in zip(group.path, group.words, strict=True)]
         count = f", {group.points} points" if group.points is not None else ""
         where = " and ".join(said) or "everywhere"
-        lines.append(f"  dimension {_dimension(group.dimension)}{count}: {where}")
+        lines.append(f"  dimension {group.extent}{count}: {where}")
     lines += [f"  for instance {configuration_text(w, whole.equation)}" for w in result.witnesses[:1]]
     return "\n".join(lines)
 
