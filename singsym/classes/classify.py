@@ -48,6 +48,8 @@ from singsym.varieties.real.witness import RealSystem
 
 LOCUS_SECONDS = 10.0
 """So long a locus is looked at of which a stratum is known."""
+BOUND_SECONDS = 3.0
+"""So long a bound is looked for where only a larger dimension would matter."""
 FIRST_SECONDS, SECOND_SECONDS = 1.0, 5.0
 """So long each stratum is looked at before it is known whether more time is worth while."""
 
@@ -240,7 +242,7 @@ class _Work:
         again = [
             replace(
                 tasks[i],
-                seconds=seconds,
+                seconds=seconds if least[i] <= 1 else self.limits.part(BOUND_SECONDS),
                 known=least[i] if least[i] > 1 else None,
                 seen=least[i] > 1 and any(p.verdict.is_yes for p in realised[i].pieces),
             )

@@ -101,15 +101,18 @@ def test_the_gallery_is_decided(
 ) -> None:
     """Every verdict is decided, and the classes are those on file, each with a certified configuration.
 
-    Singular values give the same types at the witnesses, and at random configurations types that were found.
+    Of large parallel robots a bound of a dimension may stay open; then it is said, and the dimension on file
+    is reached by a certified point.  Singular values give the same types at the witnesses, and at random
+    configurations types that were found.
     """
     result = classified(load(name))
     record_property("gallery", summary(result))
-    assert not result.undecided
+    assert not any(c.verdict.is_undecided for c in result.classes)
+    assert not result.undecided or result.equation.n > 2
     found = [c for c in result.classes if c.verdict.is_yes]
     assert tuple(c.singularity_class.number for c in found) == FOUND[name].numbers
     assert all(c.verdict.certainty in ("proven", "certified") for c in found)
-    assert {c.singularity_class.number: c.dimension for c in found} == DIMENSIONS.get(name, ANY)
+    assert {c.singularity_class.number: c.extent.at_least for c in found} == DIMENSIONS.get(name, ANY)
     if name in DIMENSIONS:
         assert all(c.verdict.certainty == "proven" for c in result.classes if c.verdict.is_no)
         assert not any("may be more" in c.verdict.reason for c in found)
