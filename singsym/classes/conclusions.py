@@ -48,7 +48,7 @@ def classes_of(
 
 
 def remarks_of(conditions: Conditions) -> tuple[str, ...]:
-    """Where (4) or (5) is no list of factors: it holds everywhere, nowhere, seems to, or is not written out."""
+    """Where (4) or (5) is no list of factors: it holds everywhere or nowhere, or is not written out."""
     found = []
     for label, name in (("4", "L_I"), ("5", "L_O")):
         condition = conditions[label]

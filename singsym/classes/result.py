@@ -304,7 +304,8 @@ def _open(what: str, found: Locus | ClassResult) -> Iterator[tuple[str, str]]:
     elif found.verdict.is_yes and found.dimension is None:
         yield f"dimension of {what}", found.extent.open
     elif found.open or (_is_uncounted(found) and not found.remark):
-        yield f"number of {what}", found.open or found.verdict.reason or "it was not counted"
+        parts = "points" if found.dimension == 0 else "components"
+        yield f"number of {parts} of {what}", found.open or found.verdict.reason or "it was not counted"
 
 
 def _is_uncounted(found: Locus | ClassResult) -> bool:

@@ -84,8 +84,8 @@ def _near_regular(classification: Classification, pieces: Iterable[Piece]) -> bo
 
     Lemma.  Where rank L = N the configuration space is a manifold of dimension n, and of n and the number of
     parameters with these as variables.  If all singular configurations together have a smaller dimension,
-    they have no inner points, so that there are regular configurations near each of rank L = N; that these are
-    feasible is not known at the ends of ranges.
+    they have no inner points, so that there are regular configurations near each of rank L = N; whether these
+    are feasible is not known at the ends of ranges.
     """
     mechanism, equation = classification.mechanism, classification.equation
     if mechanism is None or mechanism.translating or equation.space.nonnegative:

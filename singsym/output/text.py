@@ -205,7 +205,7 @@ def classification_page(result: Classification) -> Page:
     if notes := result.notes():
         blocks.append("\n".join(notes))
     if questions := gathered(result.open_questions()):
-        blocks.append(Grid(("what", "why"), questions, "Open"))
+        blocks.append("\n".join(["Open", *(f"  {what}: {why}" for what, why in questions)]))
     blocks.append(f"Engines: {', '.join(result.engines)}; seed {result.seed}; {result.seconds:.1f} s")
     return tuple(blocks)
 
