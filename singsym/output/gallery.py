@@ -111,7 +111,7 @@ def _rest(classification: Classification) -> str:
         for what, why in gathered(classification.open_questions())
     ]
     verdicts = [c.verdict for c in classification.classes]
-    weaker = {v.certainty for v in verdicts if v.is_no} - {"proven"}
+    weaker = sorted({v.certainty for v in verdicts if v.is_no} - {"proven"})
     how = "empty" if weaker else "proven empty"
     others = "All" if all(v.is_no for v in verdicts) else "All other"
     said = f"{others} classes are {how}" + (

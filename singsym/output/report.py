@@ -331,7 +331,7 @@ def _strata(classification: Classification) -> str:
     caption = "An arrow goes from a stratum to one whose closure holds it (dashed: holds a part of it)."
     missing = graph.graph["undecided"]
     if missing:
-        caption += f" {missing} comparisons were not finished and their arrows are missing."
+        caption += f" Comparisons that are open, with their arrows missing: {missing}."
     return html.figure(plot_strata(classification, graph), "strata-graph", caption, broad=True)
 
 

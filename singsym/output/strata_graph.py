@@ -7,7 +7,7 @@ of `_near_regular`.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from typing import Any
 
 import networkx
@@ -46,6 +46,7 @@ def strata_graph(classification: Classification, seconds: float = 10.0) -> netwo
     if usual:
         attributes = {"dimension": union(usual).at_least, "points": None}
         graph.add_node(_REGULAR, number=0, label="regular", **attributes)
+    budget = Budget(seconds)
     extents = {key: union(p.extent for p in pieces) for key, (_, pieces) in groups.items()}
     for key, (label, pieces) in groups.items():
         extent = extents[key]
@@ -53,11 +54,10 @@ def strata_graph(classification: Classification, seconds: float = 10.0) -> netwo
             label = f"{label}\ndimension {extent}"
         points = sum(p.points or 0 for p in pieces) if extent.dimension == 0 else None
         graph.add_node(key, number=key[0], label=label, dimension=extent.at_least, points=points)
-        if usual and _near_regular(classification, pieces):
+        if usual and _near_regular(classification, pieces, budget):
             graph.add_edge(key, _REGULAR, whole=True)
         elif usual:
             graph.graph["undecided"] += 1
-    budget = Budget(seconds)
     for small, (_, inner) in groups.items():
         for large, (_, outer) in groups.items():
             if graph.nodes[small]["dimension"] < graph.nodes[large]["dimension"]:
@@ -79,21 +79,26 @@ def strata_graph(classification: Classification, seconds: float = 10.0) -> netwo
     return reduced
 
 
-def _near_regular(classification: Classification, pieces: Iterable[Piece]) -> bool:
+def _near_regular(classification: Classification, pieces: Sequence[Piece], budget: Budget) -> bool:
     """Whether pieces of a class are proven to lie in the closure of the regular configurations.
 
     Lemma.  Where rank L = N the configuration space is a manifold of dimension n, and of n and the number of
     parameters with these as variables.  If all singular configurations together have a smaller dimension,
-    they have no inner points, so that there are regular configurations near each of rank L = N; whether these
-    are feasible is not known at the ends of ranges.
+    they have no inner points, so that there are regular configurations near each of rank L = N: feasible ones
+    where that is not at the end of a range.
     """
-    mechanism, equation = classification.mechanism, classification.equation
-    if mechanism is None or mechanism.translating or equation.space.nonnegative:
-        return False
-    usual = equation.n + len(equation.space.parameters)
+    mechanism, space = classification.mechanism, classification.equation.space
+    usual = classification.equation.n + len(space.parameters)
     bounds = [c.extent.at_most for c in classification.classes]
-    small = all(most is not None and most < usual for most in bounds)
-    return small and all(p.defects.delta == 0 for p in pieces)
+    if mechanism is None or mechanism.translating or any(m is None or m >= usual for m in bounds):
+        return False
+    if any(p.defects.delta for p in pieces):
+        return False
+    try:
+        ends = (Ideal(space.ring, (*p.basis, end)) for p in pieces for end in space.nonnegative)
+        return all(ideal.is_unit(budget) for ideal in ends)
+    except Undecided:
+        return False
 
 
 def _groups(classification: Classification) -> dict[_Key, tuple[str, list[Piece]]]:
