@@ -202,6 +202,8 @@ class Classification:
     def open_questions(self) -> Iterator[tuple[str, str]]:
         """What is not decided, each with the reason."""
         several = len(self.configuration_space) > 1
+        if not self.configuration_space and any(c.verdict.is_undecided for c in self.classes):
+            yield "the configuration space", "no piece of it is known"
         for number, piece in enumerate(self.configuration_space, 1):
             if piece.dimension is None:
                 which = f"piece {number} of the configuration space" if several else "the configuration space"
@@ -212,7 +214,7 @@ class Classification:
     def _counted(self) -> Iterator[tuple[str, Locus | ClassResult]]:
         """Loci and classes, each with what it is called."""
         for number, locus in enumerate(self.loci, 1):
-            yield f"locus {number} of ({locus.condition})", locus
+            yield f"locus {number}", locus
         for found in self.classes:
             yield f"class {found.singularity_class.number}", found
 
@@ -300,7 +302,7 @@ class Classification:
 def _open(what: str, found: Locus | ClassResult) -> Iterator[tuple[str, str]]:
     """What is not known of a locus or a class, each with the reason."""
     if found.verdict.is_undecided:
-        yield what, found.verdict.reason
+        yield f"occurrence of {what}", found.verdict.reason
     elif found.verdict.is_yes and found.dimension is None:
         yield f"dimension of {what}", found.extent.open
     elif found.open or (_is_uncounted(found) and not found.remark):
@@ -325,15 +327,20 @@ def _remarks(found: Locus | ClassResult) -> Iterator[str]:
 
 
 def gathered(pairs: Iterable[tuple[str, str]]) -> tuple[tuple[str, str], ...]:
-    """Those with the same second part together.
+    """Those with the same second part together, and the numbers of what is called alike.
 
     >>> gathered([("class 1", "no time"), ("class 2", "no memory"), ("class 3", "no time")])
-    (('class 1, class 3', 'no time'), ('class 2', 'no memory'))
+    (('class 1, 3', 'no time'), ('class 2', 'no memory'))
     """
-    by_reason: dict[str, dict[str, None]] = {}
+    by_reason: dict[str, dict[str, list[str]]] = {}
     for what, reason in pairs:
-        by_reason.setdefault(reason, {})[what] = None
-    return tuple((", ".join(whats), reason) for reason, whats in by_reason.items())
+        name, _, number = what.rpartition(" ")
+        key, entry = (name, number) if number.isdecimal() else (what, "")
+        by_reason.setdefault(reason, {}).setdefault(key, []).append(entry)
+    return tuple(
+        ("; ".join(f"{name} {', '.join(numbers)}".strip() for name, numbers in named.items()), reason)
+        for reason, named in by_reason.items()
+    )
 
 
 def counts(found: Locus | ClassResult) -> tuple[str, str]:

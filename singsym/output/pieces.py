@@ -85,6 +85,8 @@ def parts_of(found: Locus | ClassResult) -> str:
     """
     from singsym.classes.result import counts
 
+    if found.verdict.is_undecided:
+        return "?"
     points, components = counts(found)
     return counted(points, "point") if points else counted(components, "component")
 

@@ -73,8 +73,8 @@ def test_undecided_classes_are_named() -> None:
     found = card(classify(load("zlatanov-2dof"), limits=limits, cache=False))
     assert found.open
     assert found.undecided
-    named = [what.split(", ") for what in re.findall(r"Open: ([^<]*)<", found.body)]
-    assert {f"class {number}" for number in found.open} <= {one for several in named for one in several}
+    named = re.findall(r"occurrence of class ([0-9, ]+)", found.body)
+    assert set(found.open) <= {int(number) for listed in named for number in listed.split(",")}
 
 
 def test_equations_without_a_mechanism_have_no_place() -> None:
