@@ -46,6 +46,8 @@ from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import Mechanism
 from singsym.varieties.real.witness import RealSystem
 
+LOCUS_SECONDS = 10.0
+"""So long a locus is looked at of which a stratum is known."""
 FIRST_SECONDS, SECOND_SECONDS = 1.0, 5.0
 """So long each stratum is looked at before it is known whether more time is worth while."""
 
@@ -275,7 +277,13 @@ class _Work:
             for piece in known
         ]
         left = [i for i, done in enumerate(bounded) if not done]
-        tasks = [self._task(self._whole(factors[i][1]), None) for i in left]
+        tasks = [
+            replace(
+                self._task(self._whole(factors[i][1]), None),
+                seconds=self.limits.seconds if known[i] is None else self.limits.part(LOCUS_SECONDS),
+            )
+            for i in left
+        ]
         whole = dict(zip(left, self.runner.map(realise, tasks, "loci"), strict=True))
         found = []
         for i, piece in enumerate(known):

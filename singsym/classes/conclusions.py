@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import islice
 
 from singsym.classes.curves import Counted
 from singsym.classes.extent import EMPTY, Extent, union
@@ -26,6 +27,7 @@ from singsym.varieties.real.sampling import is_large
 
 MEMBERSHIP_SECONDS = 2.0
 """So long it is waited for that a stratum lies in a locus as a whole."""
+MOST_TRIED = 4
 MOST_FREEDOMS = 2
 NOT_COUNTED = f"components of curves are counted for n <= {MOST_FREEDOMS}, and not within inequalities"
 
@@ -142,19 +144,27 @@ def _counts(extent: Extent, pieces: Sequence[Piece]) -> tuple[int | None, int | 
 
 
 def largest_inside(factor: Factor, pieces: Sequence[Piece]) -> Piece | None:
-    """The largest stratum that is seen to lie in the zeros of a factor, if one is known to have a point."""
-    inside = [p for p in pieces if p.verdict.is_yes and _vanishes(factor.polynomial, p)]
-    return max(inside, key=lambda p: p.extent.at_least, default=None)
+    """The largest stratum that is seen to lie in the zeros of a factor, if one is known to have a point.
+
+    Those on whose way down it was set to zero; without such, a few of the others are tried.
+    """
+    polynomial = factor.polynomial
+    present = sorted((p for p in pieces if p.verdict.is_yes), key=lambda p: -p.extent.at_least)
+    on_the_way = next((p for p in present if polynomial in p.path), None)
+    if on_the_way is not None:
+        return on_the_way
+    possible = (p for p in present if p.defects.types and _may_vanish(polynomial, p))
+    return next((p for p in islice(possible, MOST_TRIED) if _vanishes(polynomial, p)), None)
+
+
+def _may_vanish(polynomial: Polynomial, piece: Piece) -> bool:
+    names = polynomial.ring.names
+    places = tuple(tuple(float(w.coordinates[name]) for name in names) for w in piece.witnesses)
+    return bool(places) and not is_large(polynomial, places)
 
 
 def _vanishes(polynomial: Polynomial, piece: Piece) -> bool:
-    """Whether a polynomial is seen to vanish on a piece: by its path, or as a member of its ideal."""
-    if polynomial in piece.path:
-        return True
-    names = polynomial.ring.names
-    places = tuple(tuple(float(w.coordinates[name]) for name in names) for w in piece.witnesses)
-    if not places or is_large(polynomial, places):
-        return False
+    """Whether a polynomial is proven to vanish on a piece, as a member of its ideal."""
     with attempt("membership", MEMBERSHIP_SECONDS), unnoted() as seen:
         return Ideal(polynomial.ring, piece.basis).contains(polynomial) and weakest(*seen) == "proven"
     return False

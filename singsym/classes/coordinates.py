@@ -54,7 +54,8 @@ def local_coordinates(
         found = _values(equation, _to_the_output(mechanism))
         if len(found) != equation.n:
             found = _pose(mechanism, equation)
-    if len(found) != equation.n:
+    # in a mode of translation a pose has fewer freedoms
+    if len(found) != equation.n or mechanism.translating:
         return ()
     return (*found, *(JointValue(length=ring.gen(name)) for name in equation.space.parameters))
 

@@ -76,11 +76,9 @@ def bound_above(system: RealSystem, dimension: int, beside: int = 0) -> Bound | 
     >>> bound_above(axes, 1), bound_above(axes, 2)
     (None, Bound(dimension=2, certainty='proven'))
     """
-    ring, equations = system.ring, system.closed_equations
-    with attempt("a bound of a dimension", TOWER_SECONDS):
-        if is_dimension_at_most(ring, equations, system.nonzero, dimension + beside):
-            return Bound(dimension)
-    seems = None
+    if is_bounded(system, dimension, beside):
+        return Bound(dimension)
+    ring, equations, seems = system.ring, system.closed_equations, None
     with attempt("a bound of a dimension", CUT_SECONDS), unnoted():
         seems = seems_at_most(ring, equations, dimension + beside)
         if not seems and system.exclusions:
@@ -92,6 +90,14 @@ def bound_above(system: RealSystem, dimension: int, beside: int = 0) -> Bound | 
         if found <= dimension and (weakest(*seen) == "proven" or seems is None):
             return Bound(dimension, weakest(*seen))
     return Bound(dimension, "modular") if seems else None
+
+
+def is_bounded(system: RealSystem, dimension: int, beside: int = 0) -> bool:
+    """Whether a bound is proven by eliminating variables in turn, which is quick where it comes to an end."""
+    with attempt("a bound of a dimension", TOWER_SECONDS):
+        equations, nonzero = system.closed_equations, system.nonzero
+        return is_dimension_at_most(system.ring, equations, nonzero, dimension + beside)
+    return False
 
 
 def points_off_exclusions(system: RealSystem) -> list[RealPoint]:

@@ -17,6 +17,7 @@ from singsym.classes.coordinates import are_missed
 from singsym.classes.dimension_bounds import (
     Bound,
     bound_above,
+    is_bounded,
     larger_parts,
     off_borders,
     points_off_exclusions,
@@ -267,11 +268,13 @@ def _charted(system: RealSystem, patch: Patch) -> tuple[Cartesian, int]:
 
 def _bound(system: RealSystem, dimension: int, task: RealTask) -> Bound | None:
     """A bound of the dimension of a set, where it is one."""
+    chart, beside = _charted(system, unsplit(system.closed_equations, system.ring))
     if task.most == dimension + 1 and task.coordinates:
+        if is_bounded(chart.system, dimension, beside):
+            return Bound(dimension)
         with attempt("a bound of a dimension", MISSING_SECONDS):
             if are_missed(system.closed_equations, task.coordinates):
                 return Bound(dimension, "modular")
-    chart, beside = _charted(system, unsplit(system.closed_equations, system.ring))
     return bound_above(chart.system, dimension, beside)
 
 

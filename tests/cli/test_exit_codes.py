@@ -1,4 +1,4 @@
-"""Exit code 3: something is open, be it a class, a dimension or a number; by every command that classifies."""
+"""Exit code 3: something is open, a class, a dimension or a number; by every command that classifies."""
 
 from __future__ import annotations
 
