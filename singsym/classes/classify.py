@@ -275,7 +275,7 @@ class _Work:
         singular = replace(singular, bounded=weakest(singular.bounded, explored.certainty))
         known = [largest_inside(factor, pieces) for _, factor in factors]
         bounded = [
-            self.equation.n > 1 and piece is not None and piece.extent.at_least == singular.dimension
+            self.equation.n > 1 and piece is not None and 0 < piece.extent.at_least == singular.dimension
             for piece in known
         ]
         left = [i for i, done in enumerate(bounded) if not done]

@@ -16,6 +16,7 @@ from singsym.classes.result import ClassResult, Locus, Piece, conditions_latex
 from singsym.classes.search import Exploration
 from singsym.classes.steps import excluded_in, found_in
 from singsym.classes.types import SingularityClass, SingularityType, feasible_classes
+from singsym.elimination import chance
 from singsym.elimination.attempts import attempt
 from singsym.elimination.conditions import Conditions, Factor
 from singsym.elimination.ideal import Ideal
@@ -49,15 +50,22 @@ def classes_of(
 
 
 def remarks_of(conditions: Conditions) -> tuple[str, ...]:
-    """Where (4) or (5) is no list of factors: it holds everywhere, seems to, or is not written out."""
+    """Where (4) or (5) is no list of factors: it holds everywhere or nowhere, or is not written out."""
     found = []
     for label, name in (("4", "L_I"), ("5", "L_O")):
         condition = conditions[label]
         if condition.everywhere:
             found.append(f"({label}) holds in every configuration")
-        elif condition.alternatives is None:
+        elif condition.alternatives is not None:
+            if not condition.alternatives:
+                found.append(f"({label}) holds in no configuration")
+            elif any(len(factors) > 1 for factors in condition.alternatives):
+                found.append(
+                    f"({label}) holds also where several polynomials vanish: no loci of these are listed"
+                )
+        else:
             said = f"({label}) is not written out in factors"
-            seen = check_mobility(conditions.equation)
+            seen = check_mobility(conditions.equation, chance.random("remarks").randrange(2**32))
             if seen.samples and seen.ranks[name] < conditions.equation.N:
                 ranks = f"rank {name} = {seen.ranks[name]} < N = {conditions.equation.N}"
                 where = f"at all {seen.samples} random configurations"

@@ -195,19 +195,28 @@ class Classification:
         return any(True for _ in self.open_questions())
 
     def notes(self) -> tuple[str, ...]:
-        """All remarks, of the whole, of loci and of classes, each once."""
-        of_loci, of_classes = (x.remark for x in self.loci), (x.remark for x in self.classes)
-        return tuple(filter(None, dict.fromkeys((*self.remarks, *of_loci, *of_classes))))
+        """What is to be said beside the numbers, of the whole and of loci and classes, each once."""
+        remarks = [(what, remark) for what, found in self._counted() for remark in _remarks(found)]
+        return (*self.remarks, *(f"{what}: {remark}" for what, remark in gathered(remarks)))
 
     def open_questions(self) -> Iterator[tuple[str, str]]:
         """What is not decided, each with the reason."""
-        for piece in self.configuration_space:
+        several = len(self.configuration_space) > 1
+        if not self.configuration_space and any(c.verdict.is_undecided for c in self.classes):
+            yield "the configuration space", "no piece of it is known"
+        for number, piece in enumerate(self.configuration_space, 1):
             if piece.dimension is None:
-                yield "dimension of the configuration space", piece.extent.open
+                which = f"piece {number} of the configuration space" if several else "the configuration space"
+                yield f"dimension of {which}", piece.extent.open
+        for what, found in self._counted():
+            yield from _open(what, found)
+
+    def _counted(self) -> Iterator[tuple[str, Locus | ClassResult]]:
+        """Loci and classes, each with what it is called."""
         for number, locus in enumerate(self.loci, 1):
-            yield from _open(f"locus {number} of ({locus.condition})", locus)
+            yield f"locus {number}", locus
         for found in self.classes:
-            yield from _open(f"class {found.singularity_class.number}", found)
+            yield f"class {found.singularity_class.number}", found
 
     @property
     def parameters_note(self) -> str:
@@ -228,7 +237,9 @@ class Classification:
             (c.singularity_class.number, c.singularity_class.name, c.verdict.answer, *_sizes(c), *c.steps)
             for c in self.classes
         ]
-        return _html_table(headers, rows)
+        questions = gathered(self.open_questions())
+        open_ones = _html_table(("open", "why"), questions) if questions else ""
+        return _html_table(headers, rows) + open_ones + "".join(f"<p>{escape(n)}</p>" for n in self.notes())
 
     def as_json(self) -> dict[str, Any]:
         """The fields that `singsym classify --format json` prints."""
@@ -239,7 +250,7 @@ class Classification:
             "parameters": list(self.equation.space.parameters),
             "configuration_space": [
                 {
-                    **_extent(piece.extent),
+                    **piece.extent.as_json(),
                     "smooth": piece.smooth,
                     "delta": piece.defects.delta,
                     "types": piece.defects.types.names,
@@ -250,17 +261,18 @@ class Classification:
             ],
             "loci": [
                 {
+                    "number": number,
                     "condition": locus.condition,
                     "factor": str(locus.factor),
                     "latex": locus.latex,
                     "words": locus.words,
-                    **_extent(locus.extent),
+                    **locus.extent.as_json(),
                     "components": locus.components,
                     "points": locus.points,
                     "verdict": str(locus.verdict.answer),
                     "reason": locus.verdict.reason or locus.open or locus.remark,
                 }
-                for locus in self.loci
+                for number, locus in enumerate(self.loci, 1)
             ],
             "classes": [
                 {
@@ -268,7 +280,7 @@ class Classification:
                     "types": result.types.names,
                     "verdict": str(result.verdict.answer),
                     "certainty": str(result.verdict.certainty),
-                    **_extent(result.extent),
+                    **result.extent.as_json(),
                     "dimension": result.dimension,
                     "points": result.points,
                     "components": result.components,
@@ -287,24 +299,63 @@ class Classification:
         }
 
 
-def _extent(extent: Extent) -> dict[str, Any]:
-    """A dimension, None where it is not known, with what is known of it then; None for an empty set."""
-    found: dict[str, Any] = {"dimension": extent.dimension}
-    if extent.dimension is None and extent.at_least >= 0:
-        found |= {"at_least": extent.at_least, "dimension_reason": extent.open}
-    elif extent.bounded != "proven":
-        found["dimension_reason"] = "that it is no larger rests on random primes"
-    return found
-
-
 def _open(what: str, found: Locus | ClassResult) -> Iterator[tuple[str, str]]:
     """What is not known of a locus or a class, each with the reason."""
     if found.verdict.is_undecided:
-        yield what, found.verdict.reason
+        yield f"occurrence of {what}", found.verdict.reason
     elif found.verdict.is_yes and found.dimension is None:
         yield f"dimension of {what}", found.extent.open
-    elif found.open:
-        yield f"number of {what}", found.open
+    elif found.open or (_is_uncounted(found) and not found.remark):
+        parts = "points" if found.dimension == 0 else "components"
+        yield f"number of {parts} of {what}", found.open or found.verdict.reason or "it was not counted"
+
+
+def _is_uncounted(found: Locus | ClassResult) -> bool:
+    """Whether there is a number of points, or of components of a curve, that is not known."""
+    points, curve = found.dimension == 0, found.dimension == 1
+    return (points and found.points is None) or (curve and found.components is None)
+
+
+def _remarks(found: Locus | ClassResult) -> Iterator[str]:
+    """What is not known of a locus or a class as it was not looked for, and what rests on random primes."""
+    if found.verdict.is_yes and found.dimension is not None:
+        said = (
+            found.remark,
+            found.verdict.reason if isinstance(found, ClassResult) else found.extent.resting,
+        )
+        yield from filter(None, said)
+
+
+def gathered(pairs: Iterable[tuple[str, str]]) -> tuple[tuple[str, str], ...]:
+    """Those with the same second part together, and the numbers of what is called alike.
+
+    >>> gathered([("class 1", "no time"), ("class 2", "no memory"), ("class 3", "no time")])
+    (('class 1, 3', 'no time'), ('class 2', 'no memory'))
+    """
+    by_reason: dict[str, dict[str, list[str]]] = {}
+    for what, reason in pairs:
+        name, _, number = what.rpartition(" ")
+        key, entry = (name, number) if number.isdecimal() else (what, "")
+        by_reason.setdefault(reason, {}).setdefault(key, []).append(entry)
+    return tuple(
+        ("; ".join(f"{name} {', '.join(numbers)}".strip() for name, numbers in named.items()), reason)
+        for reason, named in by_reason.items()
+    )
+
+
+def counts(found: Locus | ClassResult) -> tuple[str, str]:
+    """The numbers of points and of connected components as text, "" where there are none to count.
+
+    "?" where one is open, "not counted" where it was not looked for.
+    """
+    least = found.extent.at_least
+    if found.verdict.is_no or least > 1:
+        return "", ""
+    missing = "not counted" if found.remark and not found.open else "?"
+    points, components = (missing if x is None else str(x) for x in (found.points, found.components))
+    if found.dimension == 0 and found.components is None:
+        components = "" if found.points is not None else missing
+    return ("" if least == 1 else points), components
 
 
 def conditions_latex(pieces: Sequence[Piece]) -> str:
@@ -328,11 +379,8 @@ def _nonzero_latex(exclusion: tuple[Polynomial, ...]) -> str:
 
 
 def _sizes(result: ClassResult) -> tuple[str, str, str]:
-    """Dimension, points and components, blank where there is none or it is not known."""
-    dimension, points, components = (
-        "" if x is None else str(x) for x in (result.dimension, result.points, result.components)
-    )
-    return dimension, points, components
+    """Dimension, points and components, blank where there is none."""
+    return "" if result.verdict.is_no else str(result.extent), *counts(result)
 
 
 def _html_table(headers: Sequence[str], rows: Iterable[Sequence[object]]) -> str:

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 
 from singsym.classes.cache import user_cache
 from singsym.classes.classify import Limits, classify_inside
+from singsym.classes.extent import EMPTY, UNKNOWN, Extent, union
 from singsym.classes.processes import processes
 from singsym.classes.realise import Names, configuration
 from singsym.classes.result import Classification, Configuration, Equations, Piece
@@ -55,7 +56,7 @@ class SolutionPiece:
     """A part of a solution set: the zeros of `basis` off those of the exclusions.
 
     path: what the condition sets to zero there; complex_dimension: of the ideal, None where not computed;
-    points: of a finite piece.
+    extent: its real dimension; points: of a finite piece.
     """
 
     path: Equations
@@ -63,9 +64,19 @@ class SolutionPiece:
     exclusions: tuple[Equations, ...]
     verdict: Verdict
     complex_dimension: int | None = None
-    dimension: int | None = None
+    extent: Extent = UNKNOWN
     points: int | None = None
     witnesses: tuple[Configuration, ...] = ()
+
+    @property
+    def dimension(self) -> int | None:
+        """The real dimension, -1 when empty, None where it is not known."""
+        return self.extent.dimension
+
+    @property
+    def is_counted(self) -> bool:
+        """Whether the number of points is known, where it may be finite."""
+        return self.points is not None or self.extent.at_least > 0
 
 
 @dataclass(frozen=True)
@@ -93,13 +104,20 @@ class Solution:
 
     @property
     def undecided(self) -> bool:
-        """Whether pieces may be missing or are not known to have real points."""
-        return bool(self.doubts)
+        """Whether pieces may be missing, are not known to have real points, or a number is open."""
+        extent = self.extent
+        finite = extent.dimension == 0
+        return extent.dimension is None or (finite and not all(p.is_counted for p in self.pieces))
 
     @property
-    def dimension(self) -> int:
-        """The largest real dimension known; -1 where there is no piece."""
-        return max((p.dimension for p in self.pieces if p.dimension is not None), default=-1)
+    def extent(self) -> Extent:
+        """Its real dimension, as far as it is known."""
+        return union((p.extent for p in self.pieces), self.doubts)
+
+    @property
+    def dimension(self) -> int | None:
+        """The real dimension, -1 where there is no piece, None where it is not known."""
+        return self.extent.dimension
 
     @property
     def set(self) -> ConstructibleSet:
@@ -277,17 +295,19 @@ def _real(task: LocusTask, component: Component) -> SolutionPiece:
         if component.dimension == 0:
             points = [p for p in real_points(component.generators) if system.admits(p)]
             if not points:
-                return replace(piece, verdict=Verdict.no(reason="no real and feasible point"), dimension=-1)
+                return replace(piece, verdict=Verdict.no(reason="no real and feasible point"), extent=EMPTY)
             shown = tuple(configuration(p, task.names) for p in points)
-            return replace(piece, verdict=Verdict.yes(), dimension=0, points=len(points), witnesses=shown)
+            finite = Extent(0, 0)
+            return replace(piece, verdict=Verdict.yes(), extent=finite, points=len(points), witnesses=shown)
         dimension, witness = component_dimension(component, system)
     except Undecided as reason:
-        return replace(piece, verdict=Verdict.undecided(str(reason)))
+        unknown = replace(UNKNOWN, open=str(reason))
+        return replace(piece, verdict=Verdict.undecided(str(reason)), extent=unknown)
     if witness is None:
-        return replace(piece, verdict=Verdict.no(reason="no real and feasible point"), dimension=-1)
+        return replace(piece, verdict=Verdict.no(reason="no real and feasible point"), extent=EMPTY)
     verdict = Verdict.yes("proven" if isinstance(witness.point, RealPoint) else "certified")
     shown = (configuration(witness.point, task.names),)
-    return replace(piece, verdict=verdict, dimension=dimension, witnesses=shown)
+    return replace(piece, verdict=verdict, extent=Extent(dimension, dimension), witnesses=shown)
 
 
 def _from_classes(condition: Condition, whole: Classification) -> Solution:
@@ -295,8 +315,9 @@ def _from_classes(condition: Condition, whole: Classification) -> Solution:
     wanted = [c for c in whole.classes if c.types & HOLDS[condition.label]]
     doubts = [c.verdict.reason for c in wanted if c.verdict.is_undecided]
     doubts += [c.extent.open for c in wanted if c.verdict.is_yes and c.dimension is None]
+    doubts += [c.open or "not counted" for c in wanted if c.dimension == 0 and c.points is None]
     known = weakest(*(c.verdict.certainty for c in wanted if c.verdict.is_no))
-    pieces = sorted((p for c in wanted for p in c.pieces), key=lambda p: (-(p.dimension or 0), str(p.path)))
+    pieces = sorted((p for c in wanted for p in c.pieces), key=lambda p: (-p.extent.at_least, str(p.path)))
     shown = tuple(map(_as_solution, pieces))
     return Solution(condition, whole.equation, shown, tuple(dict.fromkeys(doubts)), known)
 
@@ -308,7 +329,7 @@ def _as_solution(piece: Piece) -> SolutionPiece:
         piece.exclusions,
         piece.verdict,
         None,
-        piece.dimension,
+        piece.extent,
         piece.points,
         piece.witnesses,
     )

@@ -1,7 +1,7 @@
 """The command `singsym`: every artefact on stdout, everything else on stderr.
 
-Source: singsym's own; exit codes: 0 decided, 3 something undecided, 2 usage or bad input, 130 interrupted,
-143 terminated.
+Source: singsym's own; exit codes: 0 decided, 3 a class, a dimension or a number open, 2 usage or bad
+input, 130 interrupted, 143 terminated.
 """
 
 from __future__ import annotations

@@ -33,7 +33,7 @@ def run_gallery(chosen: argparse.Namespace) -> int:
         _write(folder / "index.html", index(cards, len(names)))
         say(f"{place} of {len(names)}: {name}, {result.seconds:.1f} s")
     print(folder / "index.html")
-    return UNDECIDED if any(c.open for c in cards) else 0
+    return UNDECIDED if any(c.undecided for c in cards) else 0
 
 
 def _chosen(only: list[str]) -> tuple[str, ...]:

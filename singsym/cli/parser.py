@@ -25,8 +25,9 @@ examples:
   singsym classify zlatanov-hybrid --set a=3/2 --workers 2
   singsym new mine && singsym check mine.toml && singsym classify mine.toml
 
-Results go to stdout, messages to stderr.  Exit code: 0 decided, 3 something is
-undecided, 2 usage or bad input, 130 interrupted.  More on a command: singsym COMMAND --help"""
+Results go to stdout, messages to stderr.  Exit code: 0 decided, 3 a class,
+a dimension or a number is open, 2 usage or bad input, 130 interrupted.  More on a
+command: singsym COMMAND --help"""
 
 
 def _lazily(module: str, function: str) -> Callable[[argparse.Namespace], int]:

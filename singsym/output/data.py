@@ -142,8 +142,7 @@ def solution_data(name: str, solutions: Iterable[Solution]) -> dict[str, Any]:
                 "condition": s.condition.label,
                 "statement": s.condition.statement,
                 "verdict": str(s.verdict.answer),
-                "dimension": None if s.undecided else s.dimension,
-                "at_least": s.dimension,
+                **s.extent.as_json(),
                 "pieces": [
                     {
                         "equations": [str(p) for p in piece.path],
@@ -151,7 +150,7 @@ def solution_data(name: str, solutions: Iterable[Solution]) -> dict[str, Any]:
                         "exclusions": [[str(p) for p in group] for group in piece.exclusions],
                         "verdict": str(piece.verdict.answer),
                         "certainty": str(piece.verdict.certainty),
-                        "dimension": piece.dimension,
+                        **piece.extent.as_json(),
                         "points": piece.points,
                         "witnesses": [w.as_json() for w in piece.witnesses],
                     }

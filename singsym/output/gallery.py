@@ -10,23 +10,29 @@ from dataclasses import dataclass
 from html import escape
 from itertools import groupby
 
-from singsym.classes.result import Classification, ClassResult
+from singsym.classes.result import Classification, ClassResult, gathered
 from singsym.classes.types import feasible_classes
+from singsym.elimination.verdict import described
 from singsym.mechanism.model import Mechanism
 from singsym.output import html_page as html
 from singsym.output.gallery_list import kind
+from singsym.output.pieces import counted, parts_of
 from singsym.output.plot_style import Picture
 
 
 @dataclass(frozen=True)
 class Card:
-    """A mechanism in the index: what it is, the classes found and those left open, its part of the page."""
+    """A mechanism in the index: what it is, the classes found and those left open, its part of the page.
+
+    undecided: whether anything is open, be it a class, a dimension or a number.
+    """
 
     name: str
     title: str
     kind: str
     found: tuple[int, ...]
     open: tuple[int, ...]
+    undecided: bool
     body: str
 
     @property
@@ -61,7 +67,8 @@ def card(classification: Classification) -> Card:
         f'<p class="note">{escape(mechanism.name)}: {sizes}</p>',
         f"<p>{escape(mechanism.description.strip())}</p>" if mechanism.description else "",
         _table(mechanism, found) if found else "",
-        f"<p>{_rest(found, left)}</p>",
+        f"<p>{_rest(classification)}</p>",
+        "".join(f'<p class="note">{escape(note)}</p>' for note in classification.notes()),
         f'<p class="note">Source: {escape(mechanism.source)}</p>' if mechanism.source else "",
     ]
     picture = _picture(classification, mechanism, found)
@@ -69,7 +76,7 @@ def card(classification: Classification) -> Card:
     body = f'<section id="{mechanism.name}" class="class"><div>{"".join(parts)}</div>{drawn}</section>'
     occurring, undecided = (tuple(c.singularity_class.number for c in group) for group in (found, left))
     title = mechanism.title or mechanism.name
-    return Card(mechanism.name, title, kind(mechanism), occurring, undecided, body)
+    return Card(mechanism.name, title, kind(mechanism), occurring, undecided, classification.undecided, body)
 
 
 def _picture(
@@ -91,24 +98,28 @@ def _table(mechanism: Mechanism, found: Sequence[ClassResult]) -> str:
     rows = []
     for result in found:
         number = result.singularity_class.number
-        parts = _count(result.points, "point") or _count(result.components, "component")
-        dimension = str(result.extent)
         link = f'<a href="{page_name(mechanism.name)}#class-{number}">{number}</a>'
-        rows.append(("", (link, escape(result.singularity_class.name), dimension, parts)))
+        rows.append(("", (link, escape(result.singularity_class.name), str(result.extent), parts_of(result))))
     label = f"Classes of {mechanism.title or mechanism.name}"
     return html.table(("class", "types", "dimension", "parts"), rows, label)
 
 
-def _count(number: int | None, one: str) -> str:
-    return "" if number is None else f"{number} {one}{'' if number == 1 else 's'}"
-
-
-def _rest(found: Sequence[ClassResult], left: Sequence[ClassResult]) -> str:
-    """What is known of the classes that are not in the table."""
-    if left:
-        numbers = ", ".join(str(c.singularity_class.number) for c in left)
-        return f'<span class="undecided">Undecided: {numbers}.</span> All others are proven empty.'
-    return "All other classes are proven empty." if found else "No singularity: all classes are proven empty."
+def _rest(classification: Classification) -> str:
+    """What is open, and what is known of the classes that are not in the table."""
+    lines = [
+        f'<span class="undecided">Open: {escape(what)}</span> ({escape(why)}).'
+        for what, why in gathered(classification.open_questions())
+    ]
+    verdicts = [c.verdict for c in classification.classes]
+    weaker = sorted({v.certainty for v in verdicts if v.is_no} - {"proven"})
+    how = "empty" if weaker else "proven empty"
+    others = "All" if all(v.is_no for v in verdicts) else "All other"
+    said = f"{others} classes are {how}" + (
+        f" (some {', '.join(map(described, weaker))})." if weaker else "."
+    )
+    if others == "All":
+        said = f"No singularity: {said[0].lower()}{said[1:]}"
+    return "<br>".join([*lines, said])
 
 
 def index(cards: Iterable[Card], planned: int) -> str:
@@ -123,9 +134,9 @@ def index(cards: Iterable[Card], planned: int) -> str:
     note = f'<p class="undecided">{missing} of {planned} are not classified yet.</p>' if missing else ""
     parts = [
         "<header><h1>Singularities of mechanisms</h1>"
-        f"<p>{_count(len(shown), 'mechanism')} with the classes of singular configurations, each proven to"
-        " occur by a certified configuration, proven empty, or left open.  A title leads to the mechanism's"
-        f" report, with all figures, equations and proofs.</p>{note}</header>",
+        f"<p>{counted(len(shown), 'mechanism')} with the classes of singular configurations, each shown to"
+        " occur by a certified configuration, shown to be empty, or left open.  A title leads to the"
+        f" mechanism's report, with all figures, equations and proofs.</p>{note}</header>",
         f'<nav aria-label="Contents"><ul><li><a href="#overview">Overview</a></li>{links}</ul></nav><main>',
         f'<section id="overview"><h2>Overview</h2>{_overview(shown)}</section>',
     ]

@@ -11,10 +11,10 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from singsym.elimination.conditions import polynomial_latex, symbol_latex
-from singsym.output.pieces import filled, grouped, known_by, loop_equations, moving, varying
+from singsym.output.pieces import extent_of, filled, grouped, known_by, loop_equations, moving, varying
 
 if TYPE_CHECKING:
-    from singsym.classes.result import Classification, ClassResult, Configuration, Locus
+    from singsym.classes.result import Classification, ClassResult, Configuration, Locus, SpacePiece
     from singsym.classes.solve import Solution
     from singsym.classes.types import Table
     from singsym.elimination.conditions import Condition, Conditions, Factor
@@ -257,35 +257,43 @@ def classes_latex(table: Table, n: int) -> str:
 
 def classification_latex(result: Classification) -> str:
     """The mechanism, L, the reduction, the conditions, and the classes in the layout of Table 2."""
+    from singsym.classes.result import gathered
     from singsym.elimination.conditions import conditions
 
     found = conditions(result.equation, result.reduction)
     parts = [conditions_latex(found, result.mechanism)]
+    if result.configuration_space:
+        parts += [r"\section*{Pieces of the configuration space}", _space(result.configuration_space)]
     if result.loci:
         parts += [r"\section*{Singularity set}", _loci(result.loci)]
     parts += [r"\section*{Classes}", _class_table(result)]
     if result.parameters_note:
         parts.append(f"Here {escaped(result.parameters_note)}.")
     parts += [_class(c, result) for c in result.classes if c.verdict.is_yes]
-    doubts = tuple(result.open_questions())
-    if doubts:
-        items = "\n".join(f"\\item {escaped(what)}: {escaped(reason)}" for what, reason in doubts)
-        parts += [r"\subsection*{Open}", f"\\begin{{itemize}}\n{items}\n\\end{{itemize}}"]
+    questions = [f"{what}: {reason}" for what, reason in gathered(result.open_questions())]
+    for head, lines in (("Remarks", result.notes()), ("Open", questions)):
+        if lines:
+            items = "\n".join(f"\\item {escaped(line)}" for line in lines)
+            parts.append(f"\\subsection*{{{head}}}\n\\begin{{itemize}}\n{items}\n\\end{{itemize}}")
+    parts.append(f"Engines: {escaped(', '.join(result.engines))}; seed {result.seed}.")
     return "\n\n".join(parts)
 
 
-def _count(number: int | None) -> str:
-    return "" if number is None else r"empty" if number == -1 else str(number)
+def _space(pieces: Sequence[SpacePiece]) -> str:
+    rows = [(str(x.extent), x.smooth, escaped(x.remark)) for x in pieces]
+    wide = r">{\raggedright\arraybackslash}p{.6\linewidth}"
+    return _table(("l", "l", wide), ("dimension", "smooth", "remark"), rows)
 
 
 def _loci(loci: Sequence[Locus]) -> str:
-    headers = ("", "locus", "dimension", "points", "components")
+    from singsym.classes.result import counts
+
+    headers = ("", "", "locus", "dimension", "points", "components")
     rows = [
-        (f"({x.condition})", _locus_name(x), str(x.extent), _count(x.points), _count(x.components))
-        for x in loci
+        (str(i), f"({x.condition})", _locus_name(x), str(x.extent), *counts(x)) for i, x in enumerate(loci, 1)
     ]
-    wide = r">{\raggedright\arraybackslash}p{.55\linewidth}"
-    return _table(("l", wide, "c", "c", "c"), headers, rows)
+    wide = r">{\raggedright\arraybackslash}p{.5\linewidth}"
+    return _table(("r", "l", wide, "c", "c", "c"), headers, rows)
 
 
 def _table(layout: Sequence[str], headers: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
@@ -306,6 +314,8 @@ def _locus_name(locus: Locus) -> str:
 
 
 def _class_table(result: Classification) -> str:
+    from singsym.classes.result import counts
+
     headers = ("class", "types", "there?", "known by", "dimension", "points", "components", "step")
     rows = [
         (
@@ -313,9 +323,8 @@ def _class_table(result: Classification) -> str:
             str(c.types),
             str(c.verdict.answer),
             known_by(result, c.singularity_class.number),
-            "" if c.verdict.is_no else str(c.extent),
-            _count(c.points),
-            _count(c.components),
+            extent_of(c),
+            *counts(c),
             ", ".join(c.steps),
         )
         for c in result.classes
@@ -376,7 +385,7 @@ def solution_latex(solutions: Iterable[Solution]) -> str:
             counts = f", {piece.points} points" if piece.points is not None else ""
             shown = [f" For instance {_configuration(w, solution.equation)}." for w in piece.witnesses[:1]]
             where = _equations(piece.path)
-            items.append(rf"\item ${where}$, dimension {_count(piece.dimension)}{counts}." + "".join(shown))
+            items.append(rf"\item ${where}$, dimension {piece.extent}{counts}." + "".join(shown))
         if items:
             parts.append("\\begin{itemize}\n" + "\n".join(items) + "\n\\end{itemize}")
         elif not solution.undecided:

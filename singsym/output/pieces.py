@@ -13,7 +13,7 @@ from singsym.elimination.verdict import described
 
 if TYPE_CHECKING:
     from singsym.classes.extent import Extent
-    from singsym.classes.result import Classification, Equations, Locus, Piece
+    from singsym.classes.result import Classification, ClassResult, Equations, Locus, Piece
     from singsym.kinematics.velocity import VelocityEquation
 
 
@@ -70,6 +70,31 @@ def moving(points: Mapping[str, str], equation: VelocityEquation) -> dict[str, s
     """The coordinates, named `B.x`, of the points that are not fixed to the ground."""
     fixed = {n for n, place in equation.space.points.items() if all(p.is_constant for p in place)}
     return {name: value for name, value in points.items() if name.rpartition(".")[0] not in fixed}
+
+
+def extent_of(found: Locus | ClassResult) -> str:
+    """The dimension, as far as it is known; "" where the verdict says that there is nothing."""
+    return "" if found.verdict.is_no else str(found.extent)
+
+
+def parts_of(found: Locus | ClassResult) -> str:
+    """How many points or connected components, in words; "?" for a number that is open.
+
+    >>> counted(1, "point"), counted(2, "point"), counted("?", "point"), counted("not counted", "point")
+    ('1 point', '2 points', '? points', 'not counted')
+    """
+    from singsym.classes.result import counts
+
+    if found.verdict.is_undecided:
+        return "?"
+    points, components = counts(found)
+    return counted(points, "point") if points else counted(components, "component")
+
+
+def counted(number: int | str, one: str) -> str:
+    """A number of things in words, and what stands for a number as it is."""
+    text = str(number)
+    return f"{text} {one}{'' if text == '1' else 's'}" if text.isdecimal() or text == "?" else text
 
 
 def known_by(result: Classification, number: int) -> str:

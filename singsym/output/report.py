@@ -9,12 +9,21 @@ from collections.abc import Iterator
 from html import escape
 
 from singsym.classes.motions import Motion
-from singsym.classes.result import Classification, ClassResult, Piece
+from singsym.classes.result import Classification, ClassResult, Piece, gathered
 from singsym.classes.types import SingularityType
+from singsym.elimination.verdict import described
 from singsym.mechanism.model import JointRate
 from singsym.output import html_math as math
 from singsym.output import html_page as html
-from singsym.output.pieces import known_by, loop_equations, moving, varying
+from singsym.output.pieces import (
+    counted,
+    extent_of,
+    known_by,
+    loop_equations,
+    moving,
+    parts_of,
+    varying,
+)
 from singsym.output.text import number_text
 from singsym.polynomials import Polynomial, PolynomialMatrix
 
@@ -53,10 +62,8 @@ def report(classification: Classification) -> str:
     parts = [f"<header><h1>{escape(name)}</h1>{_head(classification)}</header>"]
     parts.append(f'<nav aria-label="Contents"><ul>{links}</ul></nav><main>')
     parts += [f'<section id="{key}"><h2>{title}</h2>{body}</section>' for key, title, body in shown]
-    engines = escape(", ".join(classification.engines))
-    parts.append(
-        f'</main><footer class="note"><p>singsym, {classification.seconds:.1f} s, {engines}</p></footer>'
-    )
+    work = f"{', '.join(classification.engines)}; seed {classification.seed}; {classification.seconds:.1f} s"
+    parts.append(f'</main><footer class="note"><p>singsym, with {escape(work)}</p></footer>')
     return html.page(f"Singularities: {name}", "\n".join(parts), SCRIPT)
 
 
@@ -98,24 +105,20 @@ def _head(classification: Classification) -> str:
 # -- summary -------------------------------------------------------------------------------------------
 
 
-def _count(number: int | None, one: str) -> str:
-    return "" if number is None else f"{number} {one}{'' if number == 1 else 's'}"
-
-
 def _summary(classification: Classification) -> str:
     space = [
         f"<li>Configuration space: dimension {p.extent}, smooth: {escape(p.smooth)}"
         f"{'; ' + escape(p.remark) if p.remark else ''}</li>"
         for p in classification.configuration_space
-    ]
+    ] or ["<li>Configuration space: no piece of it is known</li>"]
     rows = []
     for i, locus in enumerate(classification.loci):
         style = "no" if locus.verdict.is_no else "undecided" if locus.verdict.is_undecided else ""
         size = str(locus.extent)
-        count = _count(locus.points, "point") or _count(locus.components, "component")
-        link = f'<a href="#locus-{i}">({escape(locus.condition)})</a>'
-        rows.append((style, (link, escape(locus.words), size, count, _locus_name(classification, i))))
-    headers = ("condition", "in words", "dimension", "parts", "vanishes")
+        link = f'<a href="#locus-{i}">{i + 1}</a>'
+        said = (link, f"({escape(locus.condition)})", escape(locus.words), size, parts_of(locus))
+        rows.append((style, (*said, _locus_name(classification, i))))
+    headers = ("locus", "condition", "in words", "dimension", "parts", "vanishes")
     loci = html.table(headers, rows, "Loci of conditions (4) and (5)") if rows else ""
     return (
         f"<ul>{''.join(space)}</ul>"
@@ -125,12 +128,11 @@ def _summary(classification: Classification) -> str:
 
 
 def _open(classification: Classification) -> str:
-    """What is not decided, and what is said of the whole."""
-    lines = [f"<li>{escape(remark)}</li>" for remark in classification.remarks]
-    lines += [
-        f"<li>Open: {escape(what)}: {escape(why)}</li>" for what, why in classification.open_questions()
-    ]
-    return f"<ul>{''.join(lines)}</ul>" if lines else ""
+    """What is to be said beside the tables, and what is not decided."""
+    notes = "".join(f"<li>{escape(note)}</li>" for note in classification.notes())
+    rows = [("", (escape(what), escape(why))) for what, why in gathered(classification.open_questions())]
+    listed = f"<h3>Open</h3>{html.table(('what', 'why'), rows, 'What is open')}" if rows else ""
+    return (f"<ul>{notes}</ul>" if notes else "") + listed
 
 
 def _locus_name(classification: Classification, index: int) -> str:
@@ -148,15 +150,13 @@ def _class_table(classification: Classification) -> str:
         number, verdict = result.singularity_class.number, result.verdict
         target = f"class-{number}" if verdict.is_yes else f"proof-{number}"
         style = "no" if verdict.is_no else "undecided" if verdict.is_undecided else ""
-        count = _count(result.points, "point") or _count(result.components, "component")
         there = {"yes": "yes", "no": "no", "undecided": "undecided"}[str(verdict.answer)]
-        dimension = "" if verdict.is_no else str(result.extent)
         cells = (
             f'<a href="#{target}">{number}</a>',
             escape(result.singularity_class.name),
             there,
-            dimension,
-            count,
+            extent_of(result),
+            parts_of(result),
             escape(", ".join(result.steps)),
             known_by(classification, number),
         )
@@ -184,9 +184,8 @@ def _class(classification: Classification, result: ClassResult) -> str:
         picture = plot_class(classification, result)
         drawn = html.figure(picture, f"figure-{number}", _velocities(classification, result))
     size = [f"dimension {result.extent}"]
-    size += [text for text in (_count(result.points, "point"),) if text]
-    if not result.points and result.components:
-        size.append(_count(result.components, "component") + " (closed up)")
+    if parts := parts_of(result):
+        size.append(f"{parts} (closed up)" if result.dimension == 1 and result.components else parts)
     defects = dict.fromkeys(
         f"δ = {d.delta}, p = {d.p}, k<sub>I</sub> = {d.k_I}, k<sub>O</sub> = {d.k_O}"
         for d in (p.defects for p in result.pieces)
@@ -295,7 +294,7 @@ def _witnesses(classification: Classification, result: ClassResult) -> str:
     )
     rest = len(result.witnesses) - len(shown)
     more = f"<p>{rest} more are left out.</p>" if rest else ""
-    certified = _count(len(result.witnesses), "certified configuration")
+    certified = counted(len(result.witnesses), "certified configuration")
     return f"<details><summary>{certified}</summary>{listed}{more}</details>"
 
 
@@ -332,7 +331,7 @@ def _strata(classification: Classification) -> str:
     caption = "An arrow goes from a stratum to one whose closure holds it (dashed: holds a part of it)."
     missing = graph.graph["undecided"]
     if missing:
-        caption += f" {missing} comparisons were not finished and their arrows are missing."
+        caption += f" Comparisons that are open, with their arrows missing: {missing}."
     return html.figure(plot_strata(classification, graph), "strata-graph", caption, broad=True)
 
 
@@ -390,7 +389,7 @@ def _proof(result: ClassResult) -> str:
     back = f' <a href="#class-{number}">(the class)</a>' if verdict.is_yes else ""
     lines = "".join(f"<li>{line}</li>" for line in _grounds(result))
     answer = {"yes": "It exists", "no": "It is empty", "undecided": "Undecided"}[str(verdict.answer)]
-    certainty = f" ({escape(str(verdict.certainty))})" if not verdict.is_undecided else ""
+    certainty = f" ({described(verdict.certainty)})" if not verdict.is_undecided else ""
     return (
         f'<section id="proof-{number}"><h3>Class {number}: {escape(result.singularity_class.name)}{back}</h3>'
         f"<p>{answer}{certainty}, step {escape(', '.join(result.steps) or '–')} of section 3.2.</p>"
@@ -404,13 +403,13 @@ def _grounds(result: ClassResult) -> Iterator[str]:
         yield escape(result.verdict.reason)
     seen: dict[str, int] = {}
     for piece in result.pieces:
-        size = "" if piece.dimension is None or piece.dimension < 0 else f", real dimension {piece.dimension}"
-        points = f", {_count(piece.points, 'real point')}" if piece.points else ""
+        size = "" if piece.extent.at_least < 0 else f", real dimension {piece.extent}"
+        points = f", {counted(piece.points, 'real point')}" if piece.points else ""
         engine = f", by {piece.verdict.engine}" if piece.verdict.engine else ""
         reason = f": {piece.verdict.reason}" if piece.verdict.reason else ""
         line = (
             f"a stratum of {len(piece.basis)} equations"
-            f"{size}{points}: {piece.verdict.answer} ({piece.verdict.certainty}{engine}){reason}"
+            f"{size}{points}: {piece.verdict.answer} ({described(piece.verdict.certainty)}{engine}){reason}"
         )
         seen[line] = seen.get(line, 0) + 1
     for line, times in seen.items():

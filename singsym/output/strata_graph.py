@@ -1,15 +1,18 @@
 """The graph of strata: which class lies in the closure of which.
 
 Source: the sets {4}-{6} of section 3.2 of Zlatanov, Fenton, Benhabib (1998) and their intersections;
-closures are Zariski closures, decided by radical membership.
+closures are Zariski closures, decided by radical membership; those of the regular configurations by the lemma
+of `_near_regular`.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import networkx
 
+from singsym.classes.extent import union
 from singsym.classes.result import Classification, Piece
 from singsym.elimination.budget import Budget, Undecided
 from singsym.elimination.ideal import Ideal
@@ -19,14 +22,16 @@ MANY = 16
 """With more pieces than this the nodes are whole classes."""
 
 _Key = tuple[int, tuple[str, ...]]
+_REGULAR: _Key = (0, ())
 
 
 def strata_graph(classification: Classification, seconds: float = 10.0) -> networkx.DiGraph:
     """Strata as nodes, an edge from each to those in whose closure it lies, transitively reduced.
 
-    Node attributes: `number` of the class (0: regular), `label`, `dimension`, `points`.  Edge attribute
-    `whole`: False where only a part lies in the closure.  Comparisons that take more than `seconds`
-    together leave their edges out; the graph's attribute `undecided` counts them.
+    Node attributes: `number` of the class (0: regular), `label`, `dimension` (where it is open the least that
+    it can be, which the label says), `points`.  Edge attribute `whole`: False where only a part lies in the
+    closure.  Comparisons that take more than `seconds` together, or need a dimension that is open, leave
+    their edges out; the graph's attribute `undecided` counts them.
 
     >>> from singsym.classes.classify import classify
     >>> from singsym.mechanism import load
@@ -36,14 +41,23 @@ def strata_graph(classification: Classification, seconds: float = 10.0) -> netwo
     """
     groups = _groups(classification)
     graph = networkx.DiGraph(undecided=0)
-    regular: _Key = (0, ())
-    graph.add_node(regular, number=0, label="regular", dimension=classification.equation.n, points=None)
-    for key, (label, pieces) in groups.items():
-        dimension = max((p.extent.at_least for p in pieces), default=0)
-        points = sum(p.points or 0 for p in pieces) if dimension == 0 else None
-        graph.add_node(key, number=key[0], label=label, dimension=dimension, points=points)
-        graph.add_edge(key, regular, whole=True)
+    space = classification.configuration_space
+    usual = [p.extent for p in space if p.verdict.is_yes and not p.defects.types]
+    if usual:
+        attributes = {"dimension": union(usual).at_least, "points": None}
+        graph.add_node(_REGULAR, number=0, label="regular", **attributes)
     budget = Budget(seconds)
+    extents = {key: union(p.extent for p in pieces) for key, (_, pieces) in groups.items()}
+    for key, (label, pieces) in groups.items():
+        extent = extents[key]
+        if extent.dimension is None:
+            label = f"{label}\ndimension {extent}"
+        points = sum(p.points or 0 for p in pieces) if extent.dimension == 0 else None
+        graph.add_node(key, number=key[0], label=label, dimension=extent.at_least, points=points)
+        if usual and _near_regular(classification, pieces, budget):
+            graph.add_edge(key, _REGULAR, whole=True)
+        elif usual:
+            graph.graph["undecided"] += 1
     for small, (_, inner) in groups.items():
         for large, (_, outer) in groups.items():
             if graph.nodes[small]["dimension"] < graph.nodes[large]["dimension"]:
@@ -54,6 +68,8 @@ def strata_graph(classification: Classification, seconds: float = 10.0) -> netwo
                     continue
                 if any(lying):
                     graph.add_edge(small, large, whole=all(lying))
+            elif small != large and extents[large].dimension is None:
+                graph.graph["undecided"] += 1
     reduced = networkx.transitive_reduction(graph)
     for node, data in graph.nodes(data=True):
         reduced.nodes[node].update(data)
@@ -61,6 +77,28 @@ def strata_graph(classification: Classification, seconds: float = 10.0) -> netwo
         reduced.edges[a, b].update(graph.edges[a, b])
     reduced.graph.update(graph.graph)
     return reduced
+
+
+def _near_regular(classification: Classification, pieces: Sequence[Piece], budget: Budget) -> bool:
+    """Whether pieces of a class are proven to lie in the closure of the regular configurations.
+
+    Lemma.  Where rank L = N the configuration space is a manifold of dimension n, and of n and the number of
+    parameters with these as variables.  If all singular configurations together have a smaller dimension,
+    they have no inner points, so that there are regular configurations near each of rank L = N: feasible ones
+    where that is not at the end of a range.
+    """
+    mechanism, space = classification.mechanism, classification.equation.space
+    usual = classification.equation.n + len(space.parameters)
+    bounds = [c.extent.at_most for c in classification.classes]
+    if mechanism is None or mechanism.translating or any(m is None or m >= usual for m in bounds):
+        return False
+    if any(p.defects.delta for p in pieces):
+        return False
+    try:
+        ends = (Ideal(space.ring, (*p.basis, end)) for p in pieces for end in space.nonnegative)
+        return all(ideal.is_unit(budget) for ideal in ends)
+    except Undecided:
+        return False
 
 
 def _groups(classification: Classification) -> dict[_Key, tuple[str, list[Piece]]]:

@@ -8,8 +8,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from singsym.elimination.verdict import described
 from singsym.output.page import Block, Grid, Page
-from singsym.output.pieces import filled, grouped, known_by, loop_equations, moving, varying
+from singsym.output.pieces import extent_of, filled, grouped, known_by, loop_equations, moving, varying
 
 if TYPE_CHECKING:
     from singsym.classes.at import Analysis
@@ -27,10 +28,13 @@ if TYPE_CHECKING:
 LONGEST = 12
 """Polynomials with more terms are cut, with the number of terms left out."""
 
+NO_SPACE = "Configuration space: no piece of it is known"
+
 WIDEST = 30
 """A matrix with a longer entry is not printed as a grid in the terminal."""
 
-_LOCI = ("condition", "factor", "dimension", "components", "points")
+_SPACE = ("piece", "dimension", "smooth", "remark")
+_LOCI = ("locus", "condition", "factor", "dimension", "components", "points")
 _CLASSES = ("class", "types", "there?", "known by", "dimension", "points", "components", "step")
 
 # -- the mechanism -----------------------------------------------------------------------------------
@@ -180,16 +184,18 @@ def _legend() -> str:
 
 def classification_page(result: Classification) -> Page:
     """What was found, in the layout of Table 2, with loci, class by class and configurations."""
+    from singsym.classes.result import gathered
+
     name = result.mechanism.name if result.mechanism is not None else "given equations"
     equation = result.equation
     sizes = f"{name}: N = {equation.N}, n = {equation.n}"
     head = f"{sizes}; {result.parameters_note}" if result.parameters_note else sizes
-    space = tuple(_space_row(piece) for piece in result.configuration_space)
-    loci = tuple(_locus_row(locus) for locus in result.loci)
+    pieces = result.configuration_space
+    space = tuple(_space_row(i if len(pieces) > 1 else 0, piece) for i, piece in enumerate(pieces, 1))
+    loci = tuple(_locus_row(i, locus) for i, locus in enumerate(result.loci, 1))
     rows = tuple(_class_row(c, result) for c in result.classes)
     blocks: list[Block] = [head]
-    if space:
-        blocks.append(Grid(("dimension", "smooth", "remark"), space, "Configuration space"))
+    blocks.append(_lean(_SPACE, space, "Configuration space") if space else NO_SPACE)
     if loci:
         blocks.append(_lean(_LOCI, loci, "The singularity set: loci of conditions (4) and (5)"))
     blocks.append(_lean(_CLASSES, rows, "The classes"))
@@ -198,9 +204,8 @@ def classification_page(result: Classification) -> Page:
             blocks.append(_class_text(found, result))
     if notes := result.notes():
         blocks.append("\n".join(notes))
-    doubts = tuple(result.open_questions())
-    if doubts:
-        blocks.append(Grid(("open", "why"), doubts, "Open"))
+    if questions := gathered(result.open_questions()):
+        blocks.append("\n".join(["Open", *(f"  {what}: {why}" for what, why in questions)]))
     blocks.append(f"Engines: {', '.join(result.engines)}; seed {result.seed}; {result.seconds:.1f} s")
     return tuple(blocks)
 
@@ -216,30 +221,30 @@ def _lean(headers: tuple[str, ...], rows: tuple[tuple[str, ...], ...], title: st
     return Grid(tuple(headers[j] for j in kept), lines, title)
 
 
-def _space_row(piece: SpacePiece) -> tuple[str, ...]:
-    return (str(piece.extent), piece.smooth, piece.remark)
+def _space_row(number: int, piece: SpacePiece) -> tuple[str, ...]:
+    """number: 0 where there is only one."""
+    return (str(number or ""), str(piece.extent), piece.smooth, piece.remark)
 
 
-def _locus_row(locus: Locus) -> tuple[str, ...]:
+def _locus_row(number: int, locus: Locus) -> tuple[str, ...]:
+    from singsym.classes.result import counts
+
     shown = locus.words or locus.factor.short_text(6)
-    dimension = str(locus.extent)
-    return (f"({locus.condition})", shown, dimension, _count(locus.components), _count(locus.points))
-
-
-def _dimension(dimension: int | None) -> str:
-    return "empty" if dimension == -1 else _count(dimension)
+    points, components = counts(locus)
+    return (str(number), f"({locus.condition})", shown, str(locus.extent), components, points)
 
 
 def _class_row(result: ClassResult, whole: Classification) -> tuple[str, ...]:
+    from singsym.classes.result import counts
+
     verdict = result.verdict
     return (
         str(result.singularity_class.number),
         str(result.types),
         str(verdict.answer),
         known_by(whole, result.singularity_class.number),
-        "" if verdict.is_no else str(result.extent),
-        _count(result.points),
-        _count(result.components),
+        extent_of(result),
+        *counts(result),
         ", ".join(result.steps),
     )
 
@@ -298,9 +303,9 @@ def solution_page(name: str, solutions: Iterable[Solution]) -> Page:
             (
                 str(number),
                 ", ".join(f"{p.short_text(6)} = 0" for p in piece.path) or "everywhere",
-                _dimension(piece.dimension),
-                _count(piece.points),
-                "?" if piece.verdict.is_undecided else str(piece.verdict.certainty),
+                str(piece.extent),
+                _count(piece.points) if piece.is_counted else "?",
+                "?" if piece.verdict.is_undecided else described(piece.verdict.certainty),
             )
             for number, piece in enumerate(solution.pieces, 1)
         )

@@ -224,7 +224,7 @@ def test_a_budget_too_small_is_undecided(capsys):
     found = json.loads(capsys.readouterr().out)
     assert {c["verdict"] for c in found["classes"]} >= {"undecided"}
     assert main(arguments) == 3
-    assert "open  " in capsys.readouterr().out
+    assert "\nOpen\n" in capsys.readouterr().out
 
 
 def test_help_fits_a_screen_and_engines_are_listed(capsys):
