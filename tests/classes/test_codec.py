@@ -14,8 +14,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from singsym.classes.codec import Mismatch, codec, decode, encode
+from singsym.classes.curves import CurveTask, count
 from singsym.classes.explore import Branch, Explored, explore
-from singsym.classes.realise import CurveTask, Names, RealTask, count, realise
+from singsym.classes.realise import Names, RealTask, realise
 from singsym.classes.solve import LocusTask, solve_locus
 from singsym.classes.strata import RankProblem
 from singsym.classes.types import Defects, SingularityType
@@ -76,10 +77,10 @@ def test_numbers_of_any_length(n: int) -> None:
 
 
 def test_what_is_not_compared_comes_back_too() -> None:
-    component = Component(Ideal(RING, (X, Y), "modular"), True, 0, cohen_macaulay=True)
+    component = Component(Ideal(RING, (X, Y), "modular"), True, 0, purity="Cohen-Macaulay")
     found = again(component, Component)
     assert found == component
-    assert found.cohen_macaulay
+    assert found.purity == "Cohen-Macaulay"
     assert found.ideal.given == "modular"
     assert found.ideal.ring.constants[0].latex == r"\sqrt{3}"
 
@@ -112,7 +113,7 @@ def tasks(name: str) -> Any:
     yield from ((realise, RealTask(part, feasible, names, 20)) for part in explored.found[:3])
     for path in found["4"].polynomials:
         yield solve_locus, LocusTask(path, space.equations, feasible, names, 20)
-        yield count, CurveTask((*space.equations, *path), 20)
+        yield count, CurveTask(((*space.equations, *path),), ((),), 20)
 
 
 @pytest.mark.parametrize("name", ["slider-crank", "sarrus", "scara", "spherical-5r"])

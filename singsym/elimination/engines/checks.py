@@ -22,6 +22,7 @@ Exponents = tuple[int, ...]
 ModularBasis = frozenset[tuple[tuple[Exponents, int], ...]]
 
 _PAIR_BITS = 1e9
+_MOST_COMPARED = 300_000
 """So many operations with bits, a second or two, may take the S-pairs of a basis together."""
 _MOST_PRODUCTS = 50
 """So many polynomials are looked at, each by a basis, to prove that a decomposition is complete."""
@@ -50,14 +51,12 @@ def check_pairs(task: Task, answer: EngineAnswer) -> bool:
 def _pairs_reduce(basis: list[fmpz_mpoly], vector: fmpz_mpoly_vec, engine: str) -> bool:
     """Reduce the S-pairs that Buchberger's two criteria leave: all, or some at random where that is too dear.
 
-    A reduction takes about as many operations as the S-polynomial has terms times the bits of a polynomial.
+    The second criterion is not used where there are many pairs of a long basis.  A reduction takes about as many operations as the S-polynomial has terms times the bits of a polynomial.
     """
     leading = [p.monomial(0) for p in basis]
-    pairs = [
-        (i, j)
-        for i, j in combinations(range(len(basis)), 2)
-        if any(map(min, leading[i], leading[j])) and not _chained(leading, i, j)
-    ]
+    pairs = [(i, j) for i, j in combinations(range(len(basis)), 2) if any(map(min, leading[i], leading[j]))]
+    if len(pairs) * len(basis) <= _MOST_COMPARED:
+        pairs = [(i, j) for i, j in pairs if not _chained(leading, i, j)]
     bits = sum(int(c).bit_length() for p in basis for c in p.coeffs())
     affordable = int(_PAIR_BITS * len(basis) ** 2 / (2 * sum(map(len, basis)) * bits))
     complete = len(pairs) <= affordable
