@@ -22,8 +22,9 @@ Exponents = tuple[int, ...]
 ModularBasis = frozenset[tuple[tuple[Exponents, int], ...]]
 
 _PAIR_BITS = 1e9
-_MOST_COMPARED = 300_000
 """So many operations with bits, a second or two, may take the S-pairs of a basis together."""
+_MOST_COMPARED = 300_000
+"""So many pairs, each compared with a basis, are looked at by the second criterion."""
 _MOST_PRODUCTS = 50
 """So many polynomials are looked at, each by a basis, to prove that a decomposition is complete."""
 
@@ -51,7 +52,8 @@ def check_pairs(task: Task, answer: EngineAnswer) -> bool:
 def _pairs_reduce(basis: list[fmpz_mpoly], vector: fmpz_mpoly_vec, engine: str) -> bool:
     """Reduce the S-pairs that Buchberger's two criteria leave: all, or some at random where that is too dear.
 
-    The second criterion is not used where there are many pairs of a long basis.  A reduction takes about as many operations as the S-polynomial has terms times the bits of a polynomial.
+    The second criterion is not used where there are many pairs of a long basis.  A reduction takes about as
+    many operations as the S-polynomial has terms times the bits of a polynomial.
     """
     leading = [p.monomial(0) for p in basis]
     pairs = [(i, j) for i, j in combinations(range(len(basis)), 2) if any(map(min, leading[i], leading[j]))]
