@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from singsym.classes.classify import classify
+from singsym.classes.extent import Extent
 from singsym.classes.result import Classification, ClassResult
 from singsym.elimination.verdict import Verdict
 from singsym.mechanism import load
@@ -103,5 +104,5 @@ def test_a_dimension_too_small_is_contradicted() -> None:
     rhombus = classify(load("fourbar").with_parameters(g=1, a=1, b=1, c=1), cache=False)
     dead = next(c for c in rhombus.classes if frozenset(c.types.names) == DEAD)
     assert dead.dimension == 1
-    found = disagreements(spoilt(rhombus, replace(dead, dimension=0)), 1, 40)
+    found = disagreements(spoilt(rhombus, replace(dead, extent=Extent(0, 0))), 1, 40)
     assert any("walked in 1 direction" in fault for fault in found)
