@@ -76,8 +76,6 @@ def bound_above(system: RealSystem, dimension: int, beside: int = 0) -> Bound | 
     >>> bound_above(axes, 1), bound_above(axes, 2)
     (None, Bound(dimension=2, certainty='proven'))
     """
-    if is_bounded(system, dimension, beside):
-        return Bound(dimension)
     ring, equations, seems = system.ring, system.closed_equations, None
     with attempt("a bound of a dimension", CUT_SECONDS), unnoted():
         seems = seems_at_most(ring, equations, dimension + beside)

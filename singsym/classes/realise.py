@@ -269,9 +269,9 @@ def _charted(system: RealSystem, patch: Patch) -> tuple[Cartesian, int]:
 def _bound(system: RealSystem, dimension: int, task: RealTask) -> Bound | None:
     """A bound of the dimension of a set, where it is one."""
     chart, beside = _charted(system, unsplit(system.closed_equations, system.ring))
+    if is_bounded(chart.system, dimension, beside):
+        return Bound(dimension)
     if task.most == dimension + 1 and task.coordinates:
-        if is_bounded(chart.system, dimension, beside):
-            return Bound(dimension)
         with attempt("a bound of a dimension", MISSING_SECONDS):
             if are_missed(system.closed_equations, task.coordinates):
                 return Bound(dimension, "modular")
