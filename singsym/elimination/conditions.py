@@ -86,9 +86,7 @@ class Factor:
             scale = rf"\left({scale}\right)"
         root = rf"\sqrt{{{self.name.radicand}}}" if self.name.radicand != 1 else ""
         outer = r"\, ".join(part for part in (scale, root) if part not in ("", "1"))
-        return (
-            rf"{self.name.quantity.latex} = {outer}\left({polynomial_latex(self.polynomial, longest)}\right)"
-        )
+        return rf"{self.name.quantity.latex} = {outer}({polynomial_latex(self.polynomial, longest)})"
 
     def text(self, longest: int | None = None) -> str:
         r"""The same as plain text; longest: terms before polynomials are cut, None for no cut.
@@ -99,7 +97,7 @@ class Factor:
         >>> x, y = R.gens
         >>> name = GeometricName(Quantity(r"u \cdot v", "u.v", "axes u and v perpendicular"), R.constant(3))
         >>> print(Factor(x + y, name=name), Factor(x + y, name=name).latex())
-        u.v = 3*(x + y)  (axes u and v perpendicular) u \cdot v = 3\left(x + y\right)
+        u.v = 3*(x + y)  (axes u and v perpendicular) u \cdot v = 3(x + y)
         """
         if self.name is None or self._multiple is not None:
             shown = _text(self._multiple or self.polynomial, longest)

@@ -184,7 +184,7 @@ def test_the_axis_beside_a_surface_of_excess(pace: str) -> None:
     equations = tuple(f * a + g * b for a, b in zip(p, q, strict=True))
     dimension = dimension_or_none(equations, 60 if pace == "all" else 10)
     assert dimension in (1, None)
-    if pace == "all":
+    if pace == "all" and engines.has("singular"):
         assert dimension == 1
     assert not is_empty_over_reals(RealSystem(ring, equations), Budget(20), tries=0).is_yes
 
