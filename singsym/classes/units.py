@@ -60,7 +60,7 @@ class Border:
         >>> from singsym.mechanism import load
         >>> border = Border.of(load("3rrr"))
         >>> border.unit, border.inside.space.points["A2"], border.outside.space.points["A2"]
-        (Fraction(1, 2), (12, 0), (6, 0))
+        (Fraction(2, 1), (3, 0), (6, 0))
         """
         outside = velocity_equation(mechanism, formulation)
         unit = own_unit(mechanism)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
-from math import gcd, lcm
+from math import gcd, lcm, prod
 from statistics import median_low
 
 import sympy
@@ -17,28 +17,37 @@ from singsym.mechanism.model import Exclusion, Joint, Limit, Link, Mechanism, Ve
 
 USUAL = 10
 """In its own unit half of a mechanism's lengths at least are below this."""
+_MULTIPLES = (1, 2, 3, 4, 5, 6, 8, 9, 10, 12, 15, 16, 18, 20, 24, 25, 30, 36, 40, 45, 48, 50, 60)
+"""Of the greatest common divisor of all lengths."""
 
 
 def own_unit(mechanism: Mechanism) -> Fraction:
-    """A length that grows with the mechanism: the greatest common divisor of its lengths times a power of 10.
+    """A length that grows with the mechanism, and in which its lengths are short numbers.
 
+    It is the multiple of their greatest common divisor with the least product of all numerators and
+    denominators, then times the least power of 10 for which half of the lengths are below `USUAL` units.
     Of a length such as 3*sqrt(2)/2 or 3*a/2 the rational coefficients count, 3/2: parameters without a value
-    are numbers.  The power is the least for which half of the coefficients, zeros aside, are below `USUAL`
-    units: lengths are then small whole numbers, or near 1.  A mechanism without lengths has the unit 1.
+    are numbers.  A mechanism without lengths has the unit 1.
 
     >>> from singsym.mechanism import load
     >>> own_unit(load("fourbar")), own_unit(scaled(load("fourbar"), Fraction(700, 3)))
-    (Fraction(1, 2), Fraction(350, 3))
+    (Fraction(1, 1), Fraction(700, 3))
     >>> own_unit(load("spherical-fourbar"))
     Fraction(1, 1)
     """
     sizes = [abs(c) for length in _lengths(mechanism.resolved) for c in _coefficients(length)]
     if not sizes:
         return Fraction(1)
-    unit = Fraction(gcd(*(s.numerator for s in sizes)), lcm(*(s.denominator for s in sizes)))
+    divisor = Fraction(gcd(*(s.numerator for s in sizes)), lcm(*(s.denominator for s in sizes)))
+    unit = min((divisor * k for k in _MULTIPLES), key=lambda unit: _height([s / unit for s in sizes]))
     while median_low(sizes) >= USUAL * unit:
         unit *= 10
     return unit
+
+
+def _height(numbers: list[Fraction]) -> int:
+    """The product of all numerators and denominators."""
+    return prod(n.numerator * n.denominator for n in numbers)
 
 
 def scaled(mechanism: Mechanism, factor: Fraction) -> Mechanism:

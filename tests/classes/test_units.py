@@ -34,9 +34,9 @@ def test_both_sides_agree_for_the_library(name: str) -> None:
 
 
 def test_polynomials_are_turned_back() -> None:
-    """Equations inside, in units of 1/2, become those of the user up to a positive factor."""
+    """Equations inside, in units of 2, become those of the user up to a positive factor."""
     border = Border.of(load("3rrr"))
-    assert border.unit == Fraction(1, 2)
+    assert border.unit == 2
     for inside, outside in zip(border.inside.space.equations, border.outside.space.equations, strict=True):
         assert border.polynomial(inside) == outside.primitive()
         assert border.polynomial(-inside) == -outside.primitive()

@@ -37,7 +37,9 @@ axis = "u"
 @pytest.mark.parametrize(
     ("point", "unit"),
     [
-        ("[6, 9, 0]", Fraction(3)),  # gcd(6, 9, 6)
+        ("[6, 9, 0]", Fraction(6)),  # gcd(6, 9, 6) = 3: 2, 3, 2, but 1, 3/2, 1 are shorter
+        ("[6, 10, 0]", Fraction(6)),  # 1, 5/3, 1: shorter than 3, 5, 3
+        ("[7, 11, 0]", Fraction(1)),  # no multiple is shorter
         ('["3/2", 0, 0]', Fraction(3, 2)),  # gcd(3/2, 6)
         ('["0.6", 0, 0]', Fraction(3, 5)),
         ('["2*sqrt(3)", 0, 0]', Fraction(2)),  # the coefficient of an irrational length counts
@@ -45,7 +47,7 @@ axis = "u"
         ("[6000, 2002, 2006]", Fraction(2000)),  # gcd 2, median 2006, below 10 units
     ],
 )
-def test_the_unit_is_the_common_divisor_times_a_power_of_ten(point: str, unit: Fraction) -> None:
+def test_lengths_are_short_numbers_of_units(point: str, unit: Fraction) -> None:
     """Lengths are the point's coordinates and the slide's upper limit 6; axes are none."""
     mechanism = slider(point)
     assert own_unit(mechanism) == unit
@@ -55,7 +57,7 @@ def test_the_unit_is_the_common_divisor_times_a_power_of_ten(point: str, unit: F
 
 def test_a_parameter_without_a_value_is_a_number() -> None:
     mechanism = slider('["1000*a", "a/2", 0]', "parameters = { a = { above = 0 } }")
-    assert own_unit(mechanism) == Fraction(5)  # gcd(1000, 1/2, 6) = 1/2, median 6
+    assert own_unit(mechanism) == Fraction(2)  # 500, 1/4, 3: 6000, and 12000 of 1, 24000 of the gcd 1/2
     again = scaled(mechanism, Fraction(1, 5))
     a = sympy.Symbol("a")
     assert again.link("ground").points["A"] == (200 * a, a / 10, 0)
