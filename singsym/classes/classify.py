@@ -44,11 +44,12 @@ from singsym.elimination.verdict import weakest
 from singsym.kinematics.reduction import reduce
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import Mechanism
+from singsym.varieties.circles import Pair, unit_circles
 from singsym.varieties.real.witness import RealSystem
 
 LOCUS_SECONDS = 10.0
 """So long a locus is looked at of which a stratum is known."""
-BOUND_SECONDS = 3.0
+BOUND_SECONDS = 6.0
 """So long a bound is looked for where only a larger dimension would matter."""
 FIRST_SECONDS, SECOND_SECONDS = 1.0, 5.0
 """So long each stratum is looked at before it is known whether more time is worth while."""
@@ -159,6 +160,11 @@ class _Work:
     def names(self) -> Names:
         return Names(self.equation.space.points, self.equation.values)
 
+    @cached_property
+    def circles(self) -> tuple[Pair, ...]:
+        """The cosines and sines among the variables."""
+        return tuple(unit_circles(self.equation.space.equations))
+
     def problem(self) -> RankProblem:
         """The four matrices of the reduced velocity equation."""
         matrices = {name: self.conditions.matrix(name) for name in ("L", "L_I", "L_O", "L_p")}
@@ -211,7 +217,10 @@ class _Work:
         Lemma: a configuration that moves along a set of dimension d has as many independent motions, which
         are n + delta at most, as every motion of the links moves a joint; and parameters may vary.
         """
-        task = RealTask(found, self.feasible, self.names, self.limits.seconds, self.limits.memory_mb)
+        limits = self.limits
+        task = RealTask(
+            found, self.feasible, self.names, limits.seconds, limits.memory_mb, circles=self.circles
+        )
         if self.mechanism is None or delta is None:
             return task
         most = self.equation.n + delta + len(self.equation.space.parameters)

@@ -23,16 +23,14 @@ from flint import fmpq
 
 from singsym.classes.types import SingularityType
 from singsym.elimination import chance
-from singsym.elimination.ideal import Ideal
-from singsym.elimination.residues import residues
 from singsym.kinematics.loops import path, point_path
 from singsym.kinematics.placement import JointValue
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import JointRate, Mechanism, PointVelocity, Space, Twist
 from singsym.polynomials import Polynomial
+from singsym.varieties.independence import WIDEST, is_missed, random_values
 
 _T = SingularityType
-_WIDEST = 1000
 _IN_LINE = 1e-9
 
 
@@ -118,15 +116,33 @@ def are_missed(equations: Sequence[Polynomial], coordinates: Sequence[JointValue
     Then, but for an unlucky draw, no real part of their zeros has these as local coordinates.
     Raises `Undecided`, and `engines.EngineUnavailable` without an engine for it.
     """
-    ring = equations[0].ring
     random = chance.random("values of joints", *equations)
-    fixed = [p for value in coordinates for p in _fixed(value, random)]
-    return all(found.is_unit for found in residues(Ideal(ring, (*equations, *fixed)), limited=False))
+    values: dict[str, Polynomial] = {}
+    others: list[Polynomial] = []
+    for coordinate in coordinates:
+        names = _variables(coordinate)
+        if names and values.keys().isdisjoint(names):
+            values |= random_values(equations[0].ring, names, random)
+        else:
+            others += _fixed(coordinate, random)
+    return is_missed((*equations, *others), values)
+
+
+def _variables(value: JointValue) -> tuple[str, ...]:
+    """The variable that a joint's value is, or those that its cosine and sine are; else none."""
+    parts = (value.length,) if value.length is not None else (value.cosine, value.sine)
+    if value.square is not None or value.scale is not None or not all(map(_is_variable, parts)):
+        return ()
+    return tuple(name for p in parts if p is not None for name in p.variables)
+
+
+def _is_variable(polynomial: Polynomial | None) -> bool:
+    return polynomial is not None and any(polynomial == polynomial.ring.gen(n) for n in polynomial.variables)
 
 
 def _fixed(value: JointValue, random: Random) -> list[Polynomial]:
     """That a joint has a random value: a rational length, or an angle with rational sine and cosine."""
-    t = Fraction(random.randint(1, _WIDEST), random.randint(1, _WIDEST))
+    t = Fraction(random.randint(1, WIDEST), random.randint(1, WIDEST))
     if value.length is not None:
         return [value.length - _rational(value.length, t)]
     if value.square is not None:

@@ -29,7 +29,7 @@ from singsym.varieties.real.towers import is_dimension_at_most
 from singsym.varieties.real.witness import RealSystem, Witness, find_witness
 from singsym.varieties.real.zerodim import real_points
 
-TOWER_SECONDS = 2.0
+TOWER_SECONDS = 0.8
 """So long variables are eliminated in turn, to prove a bound from above."""
 PROOF_SECONDS = 3.0
 """So long a Groebner basis is waited for that proves a bound from above."""

@@ -33,6 +33,8 @@ from singsym.elimination.budget import Budget, Undecided
 from singsym.elimination.verdict import Certainty, Verdict, certainties, weakest
 from singsym.kinematics.placement import Coordinates, JointValue
 from singsym.polynomials import Polynomial
+from singsym.varieties.circles import Pair
+from singsym.varieties.independence import are_dependent
 from singsym.varieties.real.box import BoxPoint
 from singsym.varieties.real.cartesian import Cartesian
 from singsym.varieties.real.critical import sample_points
@@ -51,6 +53,8 @@ SEARCHES = 300
 
 MISSING_SECONDS = 5.0
 """So long random values of joints are tried, to see that a stratum is no open part of the space."""
+INDEPENDENCE_SECONDS = 10.0
+"""So long random values of each choice of coordinates are tried, to bound a dimension."""
 DIMENSION_SECONDS = 20.0
 """So long the dimension of a set that has a certified point is looked for."""
 
@@ -70,8 +74,9 @@ class RealTask:
     """A stratum to be realised on a feasible set, within a budget.
 
     most: a bound of the real dimension, if there is one; coordinates: local ones of the space wherever the
-    stratum has that dimension (see `coordinates`); known: a dimension, where only a larger one of the stratum
-    would matter; seen: whether a point of it is known.
+    stratum has that dimension (see `coordinates`); circles: variables that are cosine and sine of an angle;
+    known: a dimension, where only a larger one of the stratum would matter; seen: whether a point of it is
+    known.
     """
 
     found: Found
@@ -81,6 +86,7 @@ class RealTask:
     memory_mb: int | None = None
     most: int | None = None
     coordinates: tuple[JointValue, ...] = ()
+    circles: tuple[Pair, ...] = ()
     known: int | None = None
     seen: bool = False
 
@@ -275,6 +281,9 @@ def _bound(system: RealSystem, dimension: int, task: RealTask) -> Bound | None:
         with attempt("a bound of a dimension", MISSING_SECONDS):
             if are_missed(system.closed_equations, task.coordinates):
                 return Bound(dimension, "modular")
+    with attempt("a bound of a dimension", INDEPENDENCE_SECONDS):
+        if are_dependent(system, dimension, task.circles):
+            return Bound(dimension, "modular")
     return bound_above(chart.system, dimension, beside)
 
 
