@@ -291,6 +291,7 @@ class _Work:
         tasks = [
             replace(
                 self._task(self._whole(factors[i][1]), None),
+                most=singular.at_most,
                 seconds=self.limits.seconds if known[i] is None else self.limits.part(LOCUS_SECONDS),
             )
             for i in left
@@ -299,7 +300,7 @@ class _Work:
         found = []
         for i, piece in enumerate(known):
             if piece is None or not bounded[i]:
-                found.append(at_least(whole[i].pieces[0], piece))
+                found.append(at_least(_within(whole[i].pieces[0], singular), piece))
             else:
                 found.append(replace(piece, extent=singular, points=None, components=None))
         curves = [i for i, piece in enumerate(found) if piece.dimension == 1 and self._counting]
@@ -369,6 +370,14 @@ class _Work:
         own = self.equation.space.exclusions
         exclusions = ((*own, *p.exclusions, *e) for p, e in zip(part.pieces, elsewhere, strict=True))
         return CurveTask(tuple(p.basis for p in part.pieces), tuple(exclusions))
+
+
+def _within(piece: Piece, extent: Extent) -> Piece:
+    """A part of a set with a bound, which is that of the part as well where no other is known."""
+    own = piece.extent
+    if own.at_most is None or own.at_most != extent.at_most:
+        return piece
+    return replace(piece, extent=replace(own, bounded=weakest(own.bounded, extent.bounded)))
 
 
 def _dimensions(pieces: Iterable[Piece]) -> dict[SingularityType, int]:

@@ -7,7 +7,6 @@ Comput. 35 (2003) 403-419, for the comparison modulo a prime.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from itertools import combinations
 
 from flint import fmpq_mpoly, fmpz_mpoly, fmpz_mpoly_vec
 
@@ -23,8 +22,8 @@ ModularBasis = frozenset[tuple[tuple[Exponents, int], ...]]
 
 _PAIR_BITS = 1e9
 """So many operations with bits, a second or two, may take the S-pairs of a basis together."""
-_MOST_COMPARED = 300_000
-"""So many pairs, each compared with a basis, are looked at by the second criterion."""
+_DIVISOR_BITS = 500
+"""So many operations it takes to see whether one leading monomial divides another, with all around it."""
 _MOST_PRODUCTS = 50
 """So many polynomials are looked at, each by a basis, to prove that a decomposition is complete."""
 
@@ -52,15 +51,13 @@ def check_pairs(task: Task, answer: EngineAnswer) -> bool:
 def _pairs_reduce(basis: list[fmpz_mpoly], vector: fmpz_mpoly_vec, engine: str) -> bool:
     """Reduce the S-pairs that Buchberger's two criteria leave: all, or some at random where that is too dear.
 
-    The second criterion is not used where there are many pairs of a long basis.  A reduction takes about as
-    many operations as the S-polynomial has terms times the bits of a polynomial.
+    A reduction takes about as many operations as the S-polynomial has terms times the bits of a polynomial,
+    and looks for divisors in all of the basis.
     """
-    leading = [p.monomial(0) for p in basis]
-    pairs = [(i, j) for i, j in combinations(range(len(basis)), 2) if any(map(min, leading[i], leading[j]))]
-    if len(pairs) * len(basis) <= _MOST_COMPARED:
-        pairs = [(i, j) for i, j in pairs if not _chained(leading, i, j)]
+    pairs = _pairs([p.monomial(0) for p in basis])
     bits = sum(int(c).bit_length() for p in basis for c in p.coeffs())
-    affordable = int(_PAIR_BITS * len(basis) ** 2 / (2 * sum(map(len, basis)) * bits))
+    each = 2 * sum(map(len, basis)) * bits / len(basis) ** 2 + _DIVISOR_BITS * len(basis)
+    affordable = int(_PAIR_BITS / each)
     complete = len(pairs) <= affordable
     if not complete:
         pairs = chance.random("S-pairs", len(pairs), bits).sample(pairs, max(1, affordable // 5))
@@ -70,15 +67,24 @@ def _pairs_reduce(basis: list[fmpz_mpoly], vector: fmpz_mpoly_vec, engine: str) 
     return complete
 
 
-def _chained(leading: Sequence[Exponents], i: int, j: int) -> bool:
-    """Whether a third leading monomial strictly inside lcm(i, j) makes the pair superfluous."""
-    lcm = tuple(map(max, leading[i], leading[j]))
-    for k, other in enumerate(leading):
-        if k in (i, j) or any(a > b for a, b in zip(other, lcm, strict=True)):
-            continue
-        if tuple(map(max, leading[i], other)) != lcm and tuple(map(max, leading[j], other)) != lcm:
-            return True
-    return False
+def _pairs(leading: Sequence[Exponents]) -> list[tuple[int, int]]:
+    """Pairs of leading monomials that are not coprime and have no third one strictly inside their lcm."""
+    import numpy as np
+
+    monomials = np.array(leading, dtype=np.int32)
+    first, second = np.triu_indices(len(monomials), 1)
+    kept = np.minimum(monomials[first], monomials[second]).any(axis=1)
+    first, second = first[kept], second[kept]
+    for k, other in enumerate(monomials):
+        lcm = np.maximum(monomials[first], monomials[second])
+        inside = np.flatnonzero((other <= lcm).all(axis=1) & (first != k) & (second != k))
+        for side in (first, second):
+            shorter = np.maximum(monomials[side[inside]], other) != lcm[inside]
+            inside = inside[shorter.any(axis=1)]
+        left = np.ones(len(first), bool)
+        left[inside] = False
+        first, second = first[left], second[left]
+    return list(zip(first.tolist(), second.tolist(), strict=True))
 
 
 def modular_basis(basis: Sequence[Polynomial], prime: int) -> ModularBasis | None:
