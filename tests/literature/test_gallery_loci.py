@@ -6,7 +6,6 @@ L_O at random configurations, and triangle inequalities.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from itertools import product
 
@@ -24,8 +23,6 @@ Classified = Callable[[Mechanism], Classification]
 Vector = NDArray[np.float64]
 Points = dict[str, Vector]
 T = SingularityType
-
-LONG = pytest.mark.skipif(not os.environ.get("SINGSYM_LONG"), reason="takes long: SINGSYM_LONG=1 runs it")
 
 
 def det(*rows: Vector) -> float:
@@ -94,7 +91,7 @@ def test_determinants_of_parallel_manipulators(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["3prr", "3rrr", pytest.param("spherical-3rrr", marks=LONG)])
+@pytest.mark.parametrize("name", ["3prr", "3rrr", "spherical-3rrr"])
 def test_surfaces_that_meet_in_curves(classified: Classified, name: str) -> None:
     """Each locus is one equation on a space of dimension 3; both hold in curves; no RPM and no IIM.
 
