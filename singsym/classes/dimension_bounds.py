@@ -16,6 +16,7 @@ from fractions import Fraction
 from singsym.classes.patches import patches, unsplit
 from singsym.elimination.attempts import attempt
 from singsym.elimination.budget import current
+from singsym.elimination.eliminate import without_zeros_of
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.verdict import Certainty, unnoted, weakest
 from singsym.kinematics.numerical_rank import numerical_rank
@@ -114,12 +115,7 @@ def points_off_exclusions(system: RealSystem) -> list[RealPoint]:
 
 def _off_exclusions(system: RealSystem) -> tuple[Ring, tuple[Polynomial, ...]]:
     """The equations with a variable for the inverse of each exclusion's sum of squares (Rabinowitsch)."""
-    names = [f"inverse {k}" for k in range(len(system.exclusions))]
-    ring = system.ring.with_names((*names, *system.ring.names))
-    groups = (tuple(map(ring.convert, group)) for group in system.exclusions)
-    sums = (g[0] if len(g) == 1 else sum((p * p for p in g), start=ring.zero) for g in groups)
-    inverses = (ring.gen(name) * p - 1 for name, p in zip(names, sums, strict=True))
-    return ring, (*map(ring.convert, system.closed_equations), *inverses)
+    return without_zeros_of(system.ring, system.closed_equations, *system.away)
 
 
 def larger_parts(system: RealSystem, dimension: int) -> Iterator[tuple[int, Witness]]:

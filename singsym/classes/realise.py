@@ -32,7 +32,6 @@ from singsym.elimination.attempts import attempt
 from singsym.elimination.budget import Budget, Undecided
 from singsym.elimination.verdict import Certainty, Verdict, certainties, weakest
 from singsym.kinematics.placement import Coordinates, JointValue
-from singsym.polynomials import Polynomial
 from singsym.varieties.circles import Pair
 from singsym.varieties.independence import are_dependent
 from singsym.varieties.real.box import BoxPoint
@@ -344,9 +343,8 @@ def _counted(
     if piece.dimension != 0 or piece.points is not None:
         return piece, points
     try:
-        away = tuple(_sum_of_squares(group) for group in system.exclusions)
         with certainties() as seen:
-            samples = list(_samples(system, away, system.nonnegative))
+            samples = list(_samples(system, system.away, system.nonnegative))
     except Undecided as reason:
         return replace(piece, extent=replace(piece.extent, open=f"points not counted: {reason}")), points
     distinct: list[RealPoint] = []
@@ -363,10 +361,6 @@ def _samples(system: RealSystem, away: Equations, borders: Equations) -> Iterato
     for k, border in enumerate(borders if found else ()):
         on_it = replace(system, equations=(*system.equations, border))
         yield from _samples(on_it, away, borders[k + 1 :])
-
-
-def _sum_of_squares(group: Equations) -> Polynomial:
-    return group[0] if len(group) == 1 else sum((g * g for g in group), start=group[0].ring.zero)
 
 
 # -- configurations ----------------------------------------------------------------------------------

@@ -8,6 +8,7 @@ of x is itself free of x, then these elements generate the elimination ideal, wh
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
+from itertools import count, islice
 
 from singsym.elimination import engines
 from singsym.elimination.basis import canonical, groebner_basis
@@ -23,18 +24,19 @@ _LARGEST_WEIGHT = 4000
 
 
 def without_zeros_of(
-    ring: Ring, generators: Sequence[Polynomial], polynomial: Polynomial
+    ring: Ring, generators: Sequence[Polynomial], *polynomials: Polynomial
 ) -> tuple[Ring, tuple[Polynomial, ...]]:
-    """The generators and 1 - t p in a ring with a new first variable t.
+    """The generators and 1 - t p for each p, in a ring with new first variables t.
 
     >>> x, = Ring(("x",)).gens
     >>> without_zeros_of(x.ring, (x**2 - x,), x)[1]
     (x^2 - x, -t0*x + 1)
     """
-    name = next(n for k in range(len(ring.names) + 1) if (n := f"t{k}") not in ring.names)
-    larger = ring.with_names((name, *ring.names))
-    excluded = 1 - larger.gens[0] * larger.convert(polynomial)
-    return larger, (*(larger.convert(g) for g in generators), excluded)
+    new = (f"t{k}" for k in count() if f"t{k}" not in ring.names)
+    names = tuple(islice(new, len(polynomials)))
+    larger = ring.with_names((*names, *ring.names))
+    excluded = (1 - larger.gen(t) * larger.convert(p) for t, p in zip(names, polynomials, strict=True))
+    return larger, (*map(larger.convert, generators), *excluded)
 
 
 def eliminate(

@@ -18,6 +18,7 @@ from flint import fmpq
 
 from singsym.elimination import chance
 from singsym.elimination.budget import current
+from singsym.elimination.eliminate import without_zeros_of
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.residues import residues
 from singsym.polynomials import Polynomial, Ring
@@ -53,13 +54,10 @@ def are_dependent(system: RealSystem, dimension: int, circles: Iterable[Pair] = 
         return False
     random = chance.random("independent coordinates", *equations)
     small = [ring.convert(p) for p in equations]
-    inside = [
-        group for group in system.exclusions if {n for p in group for n in p.variables} <= {*ring.names}
-    ]
-    exclusions = [tuple(map(ring.convert, group)) for group in inside]
+    nonzero = [ring.convert(p) for p in system.away if set(p.variables) <= set(ring.names)]
     for chosen in combinations(coordinates, count):
         values = {name: value for names in chosen for name, value in random_values(ring, names, random)}
-        if not is_missed(small, values, exclusions):
+        if not is_missed(small, values, nonzero):
             return False
     return True
 
@@ -67,11 +65,10 @@ def are_dependent(system: RealSystem, dimension: int, circles: Iterable[Pair] = 
 def is_missed(
     equations: Sequence[Polynomial],
     values: Mapping[str, Polynomial],
-    exclusions: Sequence[tuple[Polynomial, ...]] = (),
+    nonzero: Sequence[Polynomial] = (),
 ) -> bool:
-    """Whether equations have no zero at given values of some variables, modulo random primes.
+    """Whether equations have no zero at given values of variables, off those of `nonzero`, modulo primes.
 
-    Zeros of an exclusion's sum of squares do not count.
     Raises `Undecided` out of budget, `EngineUnavailable` without an engine for it.
     """
     current().check("a bound of a dimension")
@@ -83,15 +80,8 @@ def is_missed(
     ring = left[0].ring
     if _is_empty(ring, left):
         return True
-    groups = ([p.substitute(dict(values)) for p in group] for group in exclusions)
-    squares = (
-        group[0] if len(group) == 1 else sum((p * p for p in group), start=ring.zero) for group in groups
-    )
-    nonzero = [p for p in squares if not p.is_constant]
-    names = [f"inverse {k}" for k in range(len(nonzero))]
-    larger = ring.with_names((*names, *ring.names))
-    inverses = [larger.gen(name) * larger.convert(p) - 1 for name, p in zip(names, nonzero, strict=True)]
-    return bool(nonzero) and _is_empty(larger, [*map(larger.convert, left), *inverses])
+    away = [q for p in nonzero if not (q := p.substitute(dict(values))).is_constant]
+    return bool(away) and _is_empty(*without_zeros_of(ring, left, *away))
 
 
 def random_values(ring: Ring, names: tuple[str, ...], random: Random) -> Iterator[tuple[str, Polynomial]]:

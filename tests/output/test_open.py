@@ -57,6 +57,14 @@ def shown(result: Classification, form: str) -> str:
     return json.dumps(result.as_json()) if form == "json" else result._repr_html_()
 
 
+def shown_as_open(found: Classification, form: str) -> str:
+    """What is shown of a result with an open question, whose reason is told."""
+    assert found.undecided
+    text = shown(found, form)
+    assert LATE in text
+    return text
+
+
 def with_class(**changes: object) -> Classification:
     """The slider-crank with another class 1."""
     result = dead_centres()
@@ -75,29 +83,20 @@ def with_locus(**changes: object) -> Classification:
 
 @pytest.mark.parametrize("form", FORMS)
 def test_an_open_dimension_of_a_class(form: str) -> None:
-    found = with_class(extent=OPEN, points=None, components=None)
-    assert found.undecided
-    text = shown(found, form)
-    assert LATE in text
+    text = shown_as_open(with_class(extent=OPEN, points=None, components=None), form)
     assert "dimension of class 1" in text
     assert ('"at_least": 1' if form == "json" else "at least 1") in text
 
 
 @pytest.mark.parametrize("form", ["text", "latex", "report", "json"])
 def test_an_open_dimension_of_a_locus(form: str) -> None:
-    found = with_locus(extent=OPEN, points=None, components=None)
-    assert found.undecided
-    text = shown(found, form)
-    assert LATE in text
+    text = shown_as_open(with_locus(extent=OPEN, points=None, components=None), form)
     assert "dimension of locus 1" in text
 
 
 @pytest.mark.parametrize("form", FORMS)
 def test_a_number_of_points_that_is_open(form: str) -> None:
-    found = with_class(points=None, components=None, open=LATE)
-    assert found.undecided
-    text = shown(found, form)
-    assert LATE in text
+    text = shown_as_open(with_class(points=None, components=None, open=LATE), form)
     assert "number of points of class 1" in text
 
 

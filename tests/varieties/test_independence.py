@@ -81,7 +81,7 @@ def test_values_that_are_taken_are_not_missed() -> None:
     assert is_missed((x * y - 1,), {"x": R.zero})
     assert not is_missed((x * y - 1,), {"x": one})
     assert is_missed((x * y - 1, z - y), {"x": one, "z": 2 * one})
-    assert is_missed((x * y,), {"x": R.zero, "y": one, "z": one}, ((x,),)) is False  # no equation is left
+    assert is_missed((x * y,), {"x": R.zero, "y": one, "z": one}, (x,)) is False  # no equation is left
 
 
 def test_without_an_engine_nothing_is_said() -> None:

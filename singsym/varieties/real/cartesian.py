@@ -132,10 +132,7 @@ class Cartesian:
 
     def _off(self, nonzero: Group) -> Ideal:
         """The equations with a variable for the inverse of each of some polynomials (Rabinowitsch 1929)."""
-        names = [f"inverse {k}" for k in range(len(nonzero))]
-        ring = self.system.ring.with_names((*names, *self.system.ring.names))
-        inverses = (ring.gen(name) * ring.convert(p) - 1 for name, p in zip(names, nonzero, strict=True))
-        return Ideal(ring, (*map(ring.convert, self.system.closed_equations), *inverses))
+        return Ideal(*without_zeros_of(self.system.ring, self.system.closed_equations, *nonzero))
 
     def based(self, seconds: float) -> tuple[Ideal, ...]:
         """Those of the ideals whose Groebner bases are found in so many seconds."""

@@ -69,6 +69,19 @@ class RealSystem:
         return tuple(dict.fromkeys((*self.positive, *single, *self._not_at_zero)))
 
     @property
+    def away(self) -> tuple[Polynomial, ...]:
+        """For each exclusion a polynomial with the same real zeros: the sum of its squares.
+
+        >>> R = Ring(("x", "y"))
+        >>> x, y = R.gens
+        >>> RealSystem(R, (), exclusions=((x,), (x, y))).away
+        (x, x^2 + y^2)
+        """
+        return tuple(
+            g[0] if len(g) == 1 else sum((p * p for p in g), self.ring.zero) for g in self.exclusions
+        )
+
+    @property
     def _not_at_zero(self) -> Iterator[Polynomial]:
         """Variables of which an inequality in them alone leaves out zero, as the range of a parameter may."""
         constants = {c.name: (c.low, c.high) for c in self.ring.constants}
