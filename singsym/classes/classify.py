@@ -237,7 +237,8 @@ class _Work:
     ) -> None:
         """Realise strata in doubt once more, those of classes of unknown or small dimension first.
 
-        Where only a dimension larger than that known of the class would matter, a bound is looked for.
+        Where only a dimension larger than that known of the class would matter, a bound is looked for, and a
+        point where none is known.
         most: the largest known dimension of the classes of strata that are looked at.
         """
         known = _dimensions(piece for part in realised for piece in part.pieces)
@@ -248,12 +249,13 @@ class _Work:
             if least[i] <= most and any(_open(p, known.get(p.defects.types)) for p in part.pieces)
         ]
         doubtful.sort(key=lambda i: least[i])
+        seen = [any(p.verdict.is_yes for p in part.pieces) for part in realised]
         again = [
             replace(
                 tasks[i],
                 seconds=seconds if least[i] <= 1 else self.limits.part(BOUND_SECONDS),
                 known=least[i] if least[i] > 1 else None,
-                seen=least[i] > 1 and any(p.verdict.is_yes for p in realised[i].pieces),
+                seen=least[i] > 1 and seen[i],
             )
             for i in doubtful
         ]
@@ -407,11 +409,11 @@ def _with_bound(extent: Extent, other: Extent) -> Extent:
 
 
 def _open(piece: Piece, known: int | None) -> bool:
-    """Whether a longer look may change what is known of the class: its dimension, points or components."""
+    """Whether a longer look may change what is known of the class: parts, dimension, points, components."""
     if piece.verdict.is_no:
         return False
     most = piece.extent.at_most
     if known is None or most is None or most > known:
         return True
     uncounted = known == 0 and piece.points is None
-    return uncounted or (piece.verdict.is_undecided and known < 2)
+    return uncounted or piece.verdict.is_undecided

@@ -125,6 +125,7 @@ def _class(
         conditions_latex(present),
         uncounted,
         remark,
+        tuple(p for p in own if p.verdict.is_undecided),
     )
 
 

@@ -118,23 +118,40 @@ def realise(task: RealTask) -> Realised:
     points: Points = ()
     try:
         with Budget(work=task.seconds, memory_mb=task.memory_mb), certainties() as seen:
-            if task.known is not None and (bound := _bound(system, task.known, task)) is not None:
-                reason = f"only a dimension above {task.known} would matter"
-                extent = Extent(-1, bound.dimension, bound.certainty, reason)
-                piece = replace(piece, verdict=Verdict.undecided(reason), extent=extent)
-            elif task.seen:
-                raise Undecided(
-                    f"that there is no part of a dimension above {task.known} was not proven in time"
-                )
-            else:
+            if task.known is None:
                 piece, points = _realised(piece, system, task)
+            else:
+                if not task.seen:
+                    with attempt("a point of a stratum", share=1 / 2):
+                        piece, points = _realised(piece, system, task)
+                piece, points = _above(piece, points, system, task)
         if piece.verdict.is_no:
             verdict = replace(piece.verdict, certainty=weakest(piece.verdict.certainty, *seen))
             piece = replace(piece, verdict=verdict)
     except Undecided as reason:
-        extent = replace(piece.extent, open=str(reason))
-        piece = replace(piece, verdict=Verdict.undecided(str(reason)), extent=extent)
+        verdict = piece.verdict if points else Verdict.undecided(str(reason))
+        piece = replace(piece, verdict=verdict, extent=replace(piece.extent, open=str(reason)))
     return Realised(tuple(_images(piece, points, task)))
+
+
+def _above(piece: Piece, points: Points, system: RealSystem, task: RealTask) -> tuple[Piece, Points]:
+    """A piece with what is found of it above a known dimension, or that there is nothing."""
+    known, most = max(task.known or 0, piece.extent.at_least), piece.extent.at_most
+    if most is not None and most <= known:
+        return piece, points
+    for larger, witness in larger_parts(off_borders(system), known):
+        piece, points = _known(piece, Extent(larger, most), witness)
+        known = larger
+    if known == most:
+        return piece, points
+    bound = _bound(system, known, task)
+    reason = f"that there is no part of a dimension above {known} was not proven in time"
+    if bound is not None:
+        reason = f"only a dimension above {known} would matter"
+        extent = replace(piece.extent, at_most=bound.dimension, bounded=bound.certainty)
+        piece = replace(piece, extent=extent)
+    verdict = piece.verdict if points else Verdict.undecided(reason)
+    return replace(piece, verdict=verdict, extent=replace(piece.extent, open=reason)), points
 
 
 def _piece(task: RealTask, reason: str) -> Piece:
@@ -194,11 +211,12 @@ def _given(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, Poi
     patch = unsplit(system.closed_equations, system.ring)
     if codimension is None and is_proven_empty(restricted(system, patch)):
         return _exactly(piece, -1, None)
-    if codimension in (None, len(system.closed_equations)):
-        witness = find_witness(off_borders(system), tries=SEARCHES)
+    if codimension is None or codimension[0] == len(system.closed_equations):
+        near = [codimension[1]] if codimension else []
+        witness = find_witness(off_borders(system), tries=SEARCHES, near=near)
         if witness is not None and independent(system.closed_equations, witness.point):
             return _counted(*_bounded(piece, system, (dimension, witness), task), system, elsewhere)
-    return _counted(*_dependent(piece, system, patch), system, elsewhere)
+    return _counted(*_singular(piece, system, patch), system, elsewhere)
 
 
 def _finitely_many(system: RealSystem) -> Sequence[RealPoint] | None:
@@ -226,6 +244,21 @@ def _bounded(
                 extent = Extent(larger, bound.dimension, bound.certainty)
                 return replace(found, extent=extent), points
         return _by_components(piece, system)
+    except Undecided as reason:
+        return replace(found, extent=replace(found.extent, open=str(reason))), points
+
+
+def _singular(piece: Piece, system: RealSystem, patch: Patch) -> tuple[Piece, Points]:
+    """A set of which no regular point is known; a manifold in it shows that it occurs, with a dimension."""
+    inside = next(larger_parts(off_borders(system), 0), None)
+    if inside is None:
+        return _dependent(piece, system, patch)
+    most, (dimension, witness) = piece.extent.at_most, inside
+    found, points = _known(piece, Extent(dimension, most), witness)
+    if dimension == most:
+        return found, points
+    try:
+        return _dependent(piece, system, patch)
     except Undecided as reason:
         return replace(found, extent=replace(found.extent, open=str(reason))), points
 

@@ -121,6 +121,7 @@ class ClassResult:
     closed up, before points of other classes are taken out.  open: why a count is not known although it was
     looked for; remark: why it was not.
     steps: the steps of section 3.2 in which it was found or excluded.
+    unsure: further pieces, of which neither a point is known nor that there is none.
     """
 
     singularity_class: SingularityClass
@@ -133,6 +134,7 @@ class ClassResult:
     conditions: str
     open: str = ""
     remark: str = ""
+    unsure: tuple[Piece, ...] = ()
 
     @property
     def dimension(self) -> int | None:
@@ -286,6 +288,7 @@ class Classification:
                     "components": result.components,
                     "witnesses": [w.as_json() for w in result.witnesses],
                     "conditions": result.conditions,
+                    "unsure": [conditions_latex([piece]) for piece in result.unsure],
                     "steps": list(result.steps),
                     "reason": result.verdict.reason or result.open or result.remark,
                 }
@@ -308,6 +311,9 @@ def _open(what: str, found: Locus | ClassResult) -> Iterator[tuple[str, str]]:
     elif found.open or (_is_uncounted(found) and not found.remark):
         parts = "points" if found.dimension == 0 else "components"
         yield f"number of {parts} of {what}", found.open or found.verdict.reason or "it was not counted"
+    if found.verdict.is_yes and isinstance(found, ClassResult):
+        for piece in found.unsure:
+            yield f"occurrence of a part of {what}", piece.verdict.reason
 
 
 def _is_uncounted(found: Locus | ClassResult) -> bool:

@@ -316,8 +316,10 @@ def _from_classes(condition: Condition, whole: Classification) -> Solution:
     doubts = [c.verdict.reason for c in wanted if c.verdict.is_undecided]
     doubts += [c.extent.open for c in wanted if c.verdict.is_yes and c.dimension is None]
     doubts += [c.open or "not counted" for c in wanted if c.dimension == 0 and c.points is None]
+    doubts += [p.verdict.reason for c in wanted for p in c.unsure]
     known = weakest(*(c.verdict.certainty for c in wanted if c.verdict.is_no))
-    pieces = sorted((p for c in wanted for p in c.pieces), key=lambda p: (-p.extent.at_least, str(p.path)))
+    parts = (p for c in wanted for p in (*c.pieces, *c.unsure))
+    pieces = sorted(parts, key=lambda p: (-p.extent.at_least, str(p.path)))
     shown = tuple(map(_as_solution, pieces))
     return Solution(condition, whole.equation, shown, tuple(dict.fromkeys(doubts)), known)
 

@@ -164,7 +164,8 @@ class Border:
 
     def _class(self, result: ClassResult) -> ClassResult:
         pieces = tuple(map(self.part, result.pieces))
-        return replace(result, pieces=pieces, conditions=conditions_latex(pieces))
+        unsure = tuple(map(self.part, result.unsure))
+        return replace(result, pieces=pieces, unsure=unsure, conditions=conditions_latex(pieces))
 
 
 def _conditions(space: ConfigurationSpace) -> tuple[Equations, ...]:

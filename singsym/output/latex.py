@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from singsym.elimination.conditions import polynomial_latex, symbol_latex
-from singsym.output.pieces import extent_of, filled, grouped, known_by, loop_equations, moving, varying
+from singsym.output.pieces import Group, extent_of, filled, grouped, known_by, loop_equations, moving, varying
 
 if TYPE_CHECKING:
     from singsym.classes.result import Classification, ClassResult, Configuration, Locus, SpacePiece
@@ -337,16 +337,21 @@ def _class(result: ClassResult, whole: Classification) -> str:
     head = f"\\subsection*{{Class {result.singularity_class.number}\\quad ({result.types})}}"
     items = []
     for group in grouped(result.pieces, whole.loci):
-        said = [
-            escaped(w) if w else f"${polynomial_latex(p, 8)} = 0$"
-            for p, w in zip(group.path, group.words, strict=True)
-        ]
         counts = f", {group.points} points" if group.points is not None else ""
-        where = r" \emph{and} ".join(said) or "everywhere"
-        items.append(rf"\item {where}: dimension {group.extent}{counts}")
+        items.append(rf"\item {_where(group)}: dimension {group.extent}{counts}")
+    items += [rf"\item perhaps also {_where(group)}" for group in grouped(result.unsure, whole.loci)]
     listed = "\\begin{itemize}\n" + "\n".join(items) + "\n\\end{itemize}"
     shown = [f"For instance {_configuration(w, whole.equation)}." for w in result.witnesses[:1]]
     return "\n".join([head, listed, *shown])
+
+
+def _where(group: Group) -> str:
+    """What vanishes on the pieces of a group."""
+    said = [
+        escaped(w) if w else f"${polynomial_latex(p, 8)} = 0$"
+        for p, w in zip(group.path, group.words, strict=True)
+    ]
+    return r" \emph{and} ".join(said) or "everywhere"
 
 
 def _equations(path: Sequence[Polynomial]) -> str:

@@ -231,6 +231,7 @@ def _pieces(classification: Classification, result: ClassResult) -> str:
         text + "".join(f'<br><span class="note">where {note}</span>' for note in notes if note)
         for text, notes in unequal.items()
     ]
+    lines += [f"perhaps also {_vanishing(classification, piece)}" for piece in result.unsure]
     return "".join(f"<li>{line}</li>" for line in lines)
 
 
@@ -402,7 +403,7 @@ def _grounds(result: ClassResult) -> Iterator[str]:
     if result.verdict.reason:
         yield escape(result.verdict.reason)
     seen: dict[str, int] = {}
-    for piece in result.pieces:
+    for piece in (*result.pieces, *result.unsure):
         size = "" if piece.extent.at_least < 0 else f", real dimension {piece.extent}"
         points = f", {counted(piece.points, 'real point')}" if piece.points else ""
         engine = f", by {piece.verdict.engine}" if piece.verdict.engine else ""

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from singsym.elimination.verdict import described
 from singsym.output.page import Block, Grid, Page
-from singsym.output.pieces import extent_of, filled, grouped, known_by, loop_equations, moving, varying
+from singsym.output.pieces import Group, extent_of, filled, grouped, known_by, loop_equations, moving, varying
 
 if TYPE_CHECKING:
     from singsym.classes.at import Analysis
@@ -253,12 +253,17 @@ def _class_text(result: ClassResult, whole: Classification) -> str:
     """A class that occurs: its pieces by what vanishes on the way, and one configuration."""
     lines = [f"{result.singularity_class.number} ({result.types})"]
     for group in grouped(result.pieces, whole.loci):
-        said = [w or f"{p.short_text(6)} = 0" for p, w in zip(group.path, group.words, strict=True)]
         count = f", {group.points} points" if group.points is not None else ""
-        where = " and ".join(said) or "everywhere"
-        lines.append(f"  dimension {group.extent}{count}: {where}")
+        lines.append(f"  dimension {group.extent}{count}: {_where(group)}")
+    lines += [f"  perhaps also: {_where(group)}" for group in grouped(result.unsure, whole.loci)]
     lines += [f"  for instance {configuration_text(w, whole.equation)}" for w in result.witnesses[:1]]
     return "\n".join(lines)
+
+
+def _where(group: Group) -> str:
+    """What vanishes on the pieces of a group."""
+    said = [w or f"{p.short_text(6)} = 0" for p, w in zip(group.path, group.words, strict=True)]
+    return " and ".join(said) or "everywhere"
 
 
 def configuration_text(found: Configuration, equation: VelocityEquation, digits: int = 7) -> str:

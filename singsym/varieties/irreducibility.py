@@ -142,7 +142,7 @@ def analyse(ideal: Ideal, *, macaulay: bool = False, seed: int = 0) -> Splitting
 
     >>> x, y, z = Ring(("x", "y", "z")).gens
     >>> analyse(Ideal(x.ring, (x**2 - 2, y**2 - 2, z))).factors
-    (x - y, x^2 - 2*x*y + y^2 - 8)
+    (x - y, x*y + 2)
     >>> analyse(Ideal(x.ring, (x**2 - 2, y**2 - 3, z))).prime
     True
     >>> analyse(Ideal(x.ring, (x * z, y * z))).beside is None
@@ -252,23 +252,34 @@ def _lift(
     The eliminant of (u, form) is a multiple of every splitting; each of its factors is irreducible over Q.
     """
     if not place.dimension:
-        return tuple(
-            sum((form**i * c for i, c in enumerate(f.coeffs())), start=place.ring.zero) for f, _ in factors
-        )
+        constant = place.ring.constant
+        return tuple(_value([constant(c) for c in f.coeffs()], form, place) for f, _ in factors)
     eliminant = relation(place.basis, (*place.ring.gens[place.split :], form))
     if eliminant is None:
         return ()
     pieces = eliminant.factors()
     if len(pieces) == 1 and pieces[0][1] == 1:
         return ()
-    names = eliminant.ring.names
-    images = dict(zip(names, (*place.ring.gens[place.split :], form), strict=True))
-    return tuple(_compose(p, [images[n] for n in names], place.ring) for p, _ in pieces)
+    return tuple(_value(_coefficients(p, place), form, place) for p, _ in pieces)
 
 
-def _compose(p: Polynomial, images: Sequence[Polynomial], ring: Ring) -> Polynomial:
-    value = p.value.compose(*(q.value for q in images), ctx=ring.context)
-    return Polynomial(ring, value)
+def _coefficients(p: Polynomial, place: Coordinates) -> list[Polynomial]:
+    """The coefficients of a polynomial in (u, l) as one in l, the lowest first, in the ring of the place."""
+    zeros = (0,) * place.split
+    table: dict[int, dict[Exponents, fmpq]] = {}
+    for m, c in p.terms():
+        table.setdefault(m[-1], {})[(*zeros, *m[:-1])] = c
+    return [place.ring.from_dict(table.get(i, {})) for i in range(max(table) + 1)]
+
+
+def _value(coefficients: Sequence[Polynomial], form: Polynomial, place: Coordinates) -> Polynomial:
+    """A polynomial in one variable at a linear form, modulo the ideal: the expanded powers would be long."""
+    forms = NormalForms(place.ring, place.basis)
+    value = place.ring.zero
+    for c in reversed(coefficients):
+        current().check("decomposition")
+        value = forms.reduce(value * form + c)
+    return value
 
 
 def relation(basis: Sequence[Polynomial], forms: Sequence[Polynomial]) -> Polynomial | None:

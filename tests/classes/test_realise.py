@@ -39,10 +39,20 @@ def test_a_stratum_below_a_known_dimension_is_left() -> None:
     circle = Found((), Stratum((x**2 + y**2 - 1,), Defects(0, 0, 0, 0)))
     task = RealTask(circle, RealSystem(ring, ()), Names())
     (seen,) = realise(task).pieces
-    (left,) = realise(replace(task, known=2)).pieces
+    (left,) = realise(replace(task, known=2, seen=True)).pieces
+    (unseen,) = realise(replace(task, known=2)).pieces
     (looked_at,) = realise(replace(task, known=0)).pieces
-    assert (seen.dimension, looked_at.dimension) == (1, 1)
+    assert (seen.dimension, unseen.dimension, looked_at.dimension) == (1, 1, 1)
     assert (left.dimension, left.extent.at_most, left.verdict.is_undecided) == (None, 2, True)
+
+
+def test_a_larger_part_of_a_set_is_found_in_a_second_look() -> None:
+    """x y = x z = 0 is a line and a plane: known as a line, it is looked at for something larger."""
+    ring = Ring(("x", "y", "z"))
+    x, y, z = ring.gens
+    both = Found((), Stratum((x * y, x * z), Defects(0, 0, 0, 0)))
+    (piece,) = realise(RealTask(both, RealSystem(ring, ()), Names(), most=2, known=1, seen=True)).pieces
+    assert (piece.dimension, piece.verdict.is_yes) == (2, True)
 
 
 def test_a_set_within_its_border_alone() -> None:
@@ -82,7 +92,7 @@ def test_a_dimension_bounded_modulo_a_prime(monkeypatch: pytest.MonkeyPatch) -> 
     x, y, z = ring.gens
     circle = Found((), Stratum((x**2 + y**2 - 1, z - x * y), Defects(0, 0, 0, 0)))
     task = RealTask(circle, RealSystem(ring, ()), Names())
-    (bounded,) = realise(replace(task, known=2)).pieces
+    (bounded,) = realise(replace(task, known=2, seen=True)).pieces
     assert (bounded.extent.at_most, bounded.extent.bounded, bounded.dimension) == (2, "modular", None)
     (seen,) = realise(replace(task, known=0)).pieces
     assert (seen.dimension, seen.extent.bounded) == (1, "modular")

@@ -5,7 +5,8 @@ Source: Gauss-Newton from random starts, see `search`.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from itertools import islice
 
 from singsym.elimination.chaos import strikes
 from singsym.polynomials import Polynomial
@@ -22,7 +23,10 @@ STARTS = (4, 56)
 """So many random starts are tried together for numerical points of a set, until there are enough."""
 POLISHING = 15
 """Undamped steps after them."""
-Points = tuple[tuple[float, ...], ...]
+MOST_POINTS = 8
+"""At so many numerical points of a set a regular one is looked for."""
+Point = tuple[float, ...]
+Points = tuple[Point, ...]
 
 
 def numerical_points(system: RealSystem, count: int = 3) -> Points:
@@ -34,17 +38,20 @@ def numerical_points(system: RealSystem, count: int = 3) -> Points:
     >>> numerical_points(RealSystem(R, (x**2 - 4,), positive=(x,)), 1)
     ((2.0,),)
     """
+    return tuple(islice(_numerical_points(system), count))
+
+
+def _numerical_points(system: RealSystem) -> Iterator[Point]:
     import numpy
 
     from singsym.varieties.real.search import Compiled, approach, gauss_newton
 
     if strikes():
-        return ()
+        return
     ring = system.ring
     extended = system.with_slack
     compiled = Compiled(extended.closed_equations, extended.ring)
     random = numpy.random.default_rng(0)
-    found: list[tuple[float, ...]] = []
     for number in STARTS:
         starts = random.normal(size=(number, compiled.size)) * 2 * compiled.sizes
         for constant in ring.constants:
@@ -55,10 +62,7 @@ def numerical_points(system: RealSystem, count: int = 3) -> Points:
                 continue
             point = tuple(map(float, x[: len(ring.names)]))
             if _is_feasible(point, system, tuple(map(float, compiled.sizes[: len(ring.names)]))):
-                found.append(point)
-            if len(found) == count:
-                return tuple(found)
-    return tuple(found)
+                yield point
 
 
 def _is_feasible(point: tuple[float, ...], system: RealSystem, sizes: Sequence[float]) -> bool:
@@ -69,13 +73,15 @@ def _is_feasible(point: tuple[float, ...], system: RealSystem, sizes: Sequence[f
     )
 
 
-def numerical_codimension(system: RealSystem) -> int | None:
-    """How many of the equations have independent gradients at a numerical point; None without a point.
+def numerical_codimension(system: RealSystem) -> tuple[int, Point] | None:
+    """How many of the equations have independent gradients at some numerical point at most, and the point.
+
+    None without a point.  Where a set has parts of several dimensions, the smallest is looked for.
 
     >>> from singsym.polynomials import Ring
     >>> R = Ring(("x", "y"))
     >>> x, y = R.gens
-    >>> numerical_codimension(RealSystem(R, (x**2 + y**2 - 1, x**2 + y**2 - x - 1, x)))
+    >>> numerical_codimension(RealSystem(R, (x**2 + y**2 - 1, x**2 + y**2 - x - 1, x)))[0]
     2
     """
     import numpy
@@ -83,12 +89,17 @@ def numerical_codimension(system: RealSystem) -> int | None:
     from singsym.kinematics.numerical_rank import numerical_rank
     from singsym.varieties.real.search import Compiled
 
-    points = numerical_points(system, 1)
-    if not points:
-        return None
-    compiled = Compiled(system.closed_equations, system.ring)
-    _, slope = compiled(numpy.array(points[0]))
-    return numerical_rank(slope * compiled.sizes, 1e-7).rank
+    equations = system.closed_equations
+    compiled = Compiled(equations, system.ring)
+    best: tuple[int, Point] | None = None
+    for point in islice(_numerical_points(system), MOST_POINTS):
+        _, slope = compiled(numpy.array(point))
+        rank = numerical_rank(slope * compiled.sizes, 1e-7).rank
+        if best is None or rank > best[0]:
+            best = rank, point
+        if rank == len(equations):
+            break
+    return best
 
 
 def is_off(

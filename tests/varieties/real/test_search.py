@@ -60,7 +60,19 @@ def test_numerical_points_in_every_unit(k: Fraction) -> None:
     here, there = numerical_points(torus_knot(Fraction(1))), numerical_points(torus_knot(k))
     assert len(here) == len(there) == 3
     assert np.allclose(np.array(there) / float(k), here, rtol=1e-6, atol=1e-6)
-    assert numerical_codimension(torus_knot(k)) == 2
+    found = numerical_codimension(torus_knot(k))
+    assert found is not None
+    assert found[0] == 2
+
+
+def test_a_regular_point_of_a_set_with_parts_of_two_dimensions() -> None:
+    """x y = x z = 0 is a plane and a line: on the line both gradients are independent."""
+    x, y, z = Ring(("x", "y", "z")).gens
+    found = numerical_codimension(RealSystem(x.ring, (x * y, x * z)))
+    assert found is not None
+    codimension, (a, b, c) = found
+    assert codimension == 2
+    assert abs(b) + abs(c) < 1e-6 < abs(a)
 
 
 @pytest.mark.parametrize("k", UNITS)
