@@ -57,11 +57,14 @@ SLOW = {
     "spherical-3rrr-60",
     "stephenson-square-roots",
 }
-"""Cases that do: only where many runs are asked for."""
+"""Cases that do: only where many runs are asked for, a few of them."""
 USUALLY, EACH = 40, 5
 RUNS = runs(USUALLY)
 NAMES = [name for name in (*library.names(), *CASES) if name not in (LONG if RUNS > USUALLY else LONG | SLOW)]
 CHOSEN = draw("chaos").sample(NAMES, min(len(NAMES), max(1, RUNS // EACH)))
+_FEW = SLOW.intersection(CHOSEN)
+MANY = -(-(RUNS - EACH * len(_FEW)) // (len(CHOSEN) - len(_FEW)))
+"""Runs for each mechanism that is not slow."""
 WHOLE, HURRIED = Limits(seconds=20, total=120), Limits(seconds=2, total=8)
 
 
@@ -93,7 +96,7 @@ def test_with_answers_withheld_less_is_decided_and_nothing_differently(name: str
     whole = answer(name, WHOLE)
     random = draw("chaos", name)
     failed = []
-    for _ in range(-(-RUNS // len(CHOSEN))):
+    for _ in range(EACH if name in SLOW else MANY):
         seed, probability = random.randrange(10**6), round(2 ** random.uniform(-7, -0.3), 3)
         found = withheld(name, whole, seed, probability)
         failed += [f"chaos({seed}, {probability}): {found}"] if found else []
