@@ -51,6 +51,8 @@ LOCUS_SECONDS = 10.0
 """So long a locus is looked at of which a stratum is known."""
 BOUND_SECONDS = 6.0
 """So long a bound is looked for where only a larger dimension would matter."""
+SHARES = (0.5, 0.8, 1.0)
+"""So much of all time is used up when the search, what is real of the strata, and everything ends."""
 FIRST_SECONDS, SECOND_SECONDS = 1.0, 5.0
 """So long each stratum is looked at before it is known whether more time is worth while."""
 
@@ -60,7 +62,8 @@ class Limits:
     """What a classification may use, None without limit.
 
     seconds, memory_mb: of work (see `work`) and memory for each task (a branch, a stratum, a curve); total:
-    seconds of time for the search for strata.
+    seconds of time after which no task is begun any more: half of it for the search for strata, and the most
+    of the rest for what is real of them.
     """
 
     seconds: float | None = 60.0
@@ -138,6 +141,15 @@ def classify_inside(
         return work.classification(started)
 
 
+@dataclass(frozen=True)
+class Ends:
+    """Budgets that end when the search, what is real of the strata, and everything has to end."""
+
+    search: Budget
+    pieces: Budget
+    all: Budget
+
+
 @dataclass
 class _Work:
     """One classification under way."""
@@ -146,6 +158,12 @@ class _Work:
     conditions: Conditions
     runner: Runner
     limits: Limits
+
+    @cached_property
+    def ends(self) -> Ends:
+        """When each part of the work has to end, from the first look at this."""
+        total = self.limits.total
+        return Ends(*(Budget(None if total is None else share * total) for share in SHARES))
 
     @property
     def equation(self) -> VelocityEquation:
@@ -171,6 +189,7 @@ class _Work:
         return RankProblem(matrices, self.conditions.reduction.constant, self.equation.N, self.equation.n)
 
     def classification(self, started: float) -> Classification:
+        search_ends = self.ends.search
         problem = self.problem()
         root = Branch(
             problem,
@@ -180,7 +199,7 @@ class _Work:
             seconds=self.limits.seconds,
             memory_mb=self.limits.memory_mb,
         )
-        explored = search(root, self.runner, self._singular_loci(), Budget(self.limits.total))
+        explored = search(root, self.runner, self._singular_loci(), search_ends)
         pieces = self._with_components(explored.found, self._pieces(explored.found))
         loci = self._loci(explored, pieces)
         classes = classes_of(explored, pieces, self.equation.n, self._counting)
@@ -206,7 +225,7 @@ class _Work:
         limits = self.limits
         tasks = [self._task(f, f.stratum.defects.delta) for f in found]
         first = [replace(task, seconds=limits.part(FIRST_SECONDS)) for task in tasks]
-        realised = self.runner.map(realise, first, "real points")
+        realised = self.runner.map(realise, first, "real points", self.ends.pieces)
         self._look_again(tasks, realised, limits.part(SECOND_SECONDS), "real points, second look")
         self._look_again(tasks, realised, limits.seconds, "real points, at length", most=1)
         return realised
@@ -259,7 +278,7 @@ class _Work:
             )
             for i in doubtful
         ]
-        for i, part in zip(doubtful, self.runner.map(realise, again, stage), strict=True):
+        for i, part in zip(doubtful, self.runner.map(realise, again, stage, self.ends.pieces), strict=True):
             realised[i] = _merged(realised[i], part)
 
     def _singular_loci(self) -> SingularLoci | None:
@@ -298,7 +317,7 @@ class _Work:
             )
             for i in left
         ]
-        whole = dict(zip(left, self.runner.map(realise, tasks, "loci"), strict=True))
+        whole = dict(zip(left, self.runner.map(realise, tasks, "loci", self.ends.all), strict=True))
         found = []
         for i, piece in enumerate(known):
             if piece is None or not bounded[i]:
@@ -328,7 +347,7 @@ class _Work:
         """The connected components of curves, closed up."""
         limits = self.limits
         limited = [replace(t, seconds=limits.seconds, memory_mb=limits.memory_mb) for t in tasks]
-        return self.runner.map(count, limited, "curves")
+        return self.runner.map(count, limited, "curves", self.ends.all)
 
     # -- classes -------------------------------------------------------------------------------------
 
@@ -349,7 +368,8 @@ class _Work:
         parts = [with_numbers(part, counted.get(i)) for i, part in enumerate(realised)]
         points = [i for i in own if realised[i].pieces[0].dimension == 0]
         beside = [self._beside(found[i], [p for k in curves for p in realised[k].pieces]) for i in points]
-        for i, part in zip(points, self.runner.map(realise, beside, "points beside curves"), strict=True):
+        counted_points = self.runner.map(realise, beside, "points beside curves", self.ends.all)
+        for i, part in zip(points, counted_points, strict=True):
             numbers = [p.points for p in part.pieces if p.verdict.is_yes]
             number = (
                 None
@@ -393,12 +413,13 @@ def _dimensions(pieces: Iterable[Piece]) -> dict[SingularityType, int]:
 
 
 def _merged(before: Realised, after: Realised) -> Realised:
-    """What two looks at a stratum say together: a point stays known where the second is for a bound only."""
-    decided = any(not p.verdict.is_undecided for p in after.pieces)
-    if decided or not any(p.verdict.is_yes for p in before.pieces):
+    """What two looks at a stratum say together: points and bounds of the first stay known."""
+    if any(not p.verdict.is_undecided for p in after.pieces):
         return after
     pairs = zip(before.pieces, after.pieces, strict=True)
-    return Realised(tuple(replace(p, extent=_with_bound(p.extent, q.extent)) for p, q in pairs))
+    return Realised(
+        tuple(replace(p if p.verdict.is_yes else q, extent=_with_bound(p.extent, q.extent)) for p, q in pairs)
+    )
 
 
 def _with_bound(extent: Extent, other: Extent) -> Extent:
