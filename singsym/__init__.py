@@ -13,17 +13,17 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from singsym.classes.at import at, at_equation
     from singsym.classes.classify import Limits, classify, classify_equation
+    from singsym.classes.configuration.at import at, at_equation
     from singsym.classes.result import Classification
     from singsym.classes.solve import solve, solve_equation
-    from singsym.classes.types import Defects, SingularityType, class_of, feasible_classes
+    from singsym.classes.taxonomy.types import Defects, SingularityType, class_of, feasible_classes
+    from singsym.conditions.conditions import conditions
+    from singsym.effort.budget import Budget
+    from singsym.effort.verdict import Verdict
     from singsym.elimination import engines
-    from singsym.elimination.budget import Budget
-    from singsym.elimination.conditions import conditions
     from singsym.elimination.ideal import Ideal
-    from singsym.elimination.verdict import Verdict
-    from singsym.kinematics.given import from_sympy
+    from singsym.kinematics.own_equation import from_sympy
     from singsym.kinematics.reduction import reduce
     from singsym.kinematics.velocity import loop_closure, velocity_equation
     from singsym.mechanism import Mechanism, MechanismError, check, define, dumps, load, loads
@@ -34,20 +34,20 @@ if TYPE_CHECKING:
 _HOMES = {
     "singsym.mechanism": ("Mechanism", "MechanismError", "check", "define", "dumps", "load", "loads"),
     "singsym.kinematics.velocity": ("loop_closure", "velocity_equation"),
-    "singsym.kinematics.given": ("from_sympy",),
+    "singsym.kinematics.own_equation": ("from_sympy",),
     "singsym.kinematics.reduction": ("reduce",),
     "singsym.elimination": ("engines",),
-    "singsym.elimination.budget": ("Budget",),
-    "singsym.elimination.conditions": ("conditions",),
+    "singsym.effort.budget": ("Budget",),
+    "singsym.conditions.conditions": ("conditions",),
     "singsym.elimination.ideal": ("Ideal",),
-    "singsym.elimination.verdict": ("Verdict",),
+    "singsym.effort.verdict": ("Verdict",),
     "singsym.varieties.constructible": ("ConstructibleSet",),
     "singsym.varieties.decomposition": ("decompose",),
-    "singsym.classes.at": ("at", "at_equation"),
+    "singsym.classes.configuration.at": ("at", "at_equation"),
     "singsym.classes.classify": ("Limits", "classify", "classify_equation"),
     "singsym.classes.result": ("Classification",),
     "singsym.classes.solve": ("solve", "solve_equation"),
-    "singsym.classes.types": ("Defects", "SingularityType", "class_of", "feasible_classes"),
+    "singsym.classes.taxonomy.types": ("Defects", "SingularityType", "class_of", "feasible_classes"),
     "singsym.polynomials": ("Polynomial", "PolynomialMatrix", "Ring"),
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names}

@@ -13,7 +13,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from math import inf
 
-from singsym.classes.cache import user_cache
 from singsym.classes.conclusions import (
     MOST_FREEDOMS,
     at_least,
@@ -23,36 +22,36 @@ from singsym.classes.conclusions import (
     remarks_of,
     with_numbers,
 )
-from singsym.classes.coordinates import local_coordinates
-from singsym.classes.curves import Counted, CurveTask, count
-from singsym.classes.explore import Branch, Found
-from singsym.classes.extent import Extent, union
-from singsym.classes.processes import processes
-from singsym.classes.realise import Names, Realised, RealTask, realise
+from singsym.classes.configuration_space import configuration_space
+from singsym.classes.realisation.curve_components import Counted, CurveTask, count
+from singsym.classes.realisation.local_coordinates import local_coordinates
+from singsym.classes.realisation.realisation import Names, Realised, RealTask, realise
 from singsym.classes.result import Classification, Locus, Piece
-from singsym.classes.search import Exploration, Loci, SingularLoci, search
-from singsym.classes.space import configuration_space
-from singsym.classes.strata import RankProblem, Stratum
-from singsym.classes.symmetry import image, reflections
-from singsym.classes.types import Defects, SingularityType
-from singsym.classes.units import Border
-from singsym.classes.work import Runner
-from singsym.elimination import chance, engines
-from singsym.elimination.budget import Budget
-from singsym.elimination.conditions import Conditions, Factor, conditions
-from singsym.elimination.verdict import weakest
+from singsym.classes.running.disk_cache import user_cache
+from singsym.classes.running.processes import processes
+from singsym.classes.running.runner import Runner
+from singsym.classes.strata.branches import Branch, Found
+from singsym.classes.strata.ranks import RankProblem, Stratum
+from singsym.classes.strata.reflections import image, reflections
+from singsym.classes.strata.search import Exploration, Loci, SingularLoci, search
+from singsym.classes.taxonomy.types import Defects, SingularityType
+from singsym.classes.unit_border import Border
+from singsym.conditions.conditions import Conditions, Factor, conditions
+from singsym.effort import chance
+from singsym.effort.budget import Budget
+from singsym.effort.verdict import weakest
+from singsym.elimination import engines
 from singsym.kinematics.reduction import reduce
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import Mechanism
-from singsym.varieties.circles import Pair, unit_circles
-from singsym.varieties.real.witness import RealSystem
+from singsym.varieties.real.dimension.extent import Extent, union
+from singsym.varieties.real.system import RealSystem
+from singsym.varieties.unit_circles import Pair, unit_circles
 
 LOCUS_SECONDS = 10.0
 """So long a locus is looked at of which a stratum is known."""
 BOUND_SECONDS = 6.0
 """So long a bound is looked for where only a larger dimension would matter."""
-SHARES = (0.5, 0.8, 1.0)
-"""So much of all time is used up when the search, what is real of the strata, and everything ends."""
 FIRST_SECONDS, SECOND_SECONDS = 1.0, 5.0
 """So long each stratum is looked at before it is known whether more time is worth while."""
 
@@ -61,9 +60,8 @@ FIRST_SECONDS, SECOND_SECONDS = 1.0, 5.0
 class Limits:
     """What a classification may use, None without limit.
 
-    seconds, memory_mb: of work (see `work`) and memory for each task (a branch, a stratum, a curve); total:
-    seconds of time after which no task is begun any more: half of it for the search for strata, and the most
-    of the rest for what is real of them.
+    seconds, memory_mb: of work (see `processor_time`) and memory for each task (a branch, a stratum, a
+    curve); total: seconds of time for the search for strata.
     """
 
     seconds: float | None = 60.0
@@ -141,15 +139,6 @@ def classify_inside(
         return work.classification(started)
 
 
-@dataclass(frozen=True)
-class Ends:
-    """Budgets that end when the search, what is real of the strata, and everything has to end."""
-
-    search: Budget
-    pieces: Budget
-    all: Budget
-
-
 @dataclass
 class _Work:
     """One classification under way."""
@@ -158,12 +147,6 @@ class _Work:
     conditions: Conditions
     runner: Runner
     limits: Limits
-
-    @cached_property
-    def ends(self) -> Ends:
-        """When each part of the work has to end, from the first look at this."""
-        total = self.limits.total
-        return Ends(*(Budget(None if total is None else share * total) for share in SHARES))
 
     @property
     def equation(self) -> VelocityEquation:
@@ -189,7 +172,6 @@ class _Work:
         return RankProblem(matrices, self.conditions.reduction.constant, self.equation.N, self.equation.n)
 
     def classification(self, started: float) -> Classification:
-        search_ends = self.ends.search
         problem = self.problem()
         root = Branch(
             problem,
@@ -199,7 +181,7 @@ class _Work:
             seconds=self.limits.seconds,
             memory_mb=self.limits.memory_mb,
         )
-        explored = search(root, self.runner, self._singular_loci(), search_ends)
+        explored = search(root, self.runner, self._singular_loci(), Budget(self.limits.total))
         pieces = self._with_components(explored.found, self._pieces(explored.found))
         loci = self._loci(explored, pieces)
         classes = classes_of(explored, pieces, self.equation.n, self._counting)
@@ -225,7 +207,7 @@ class _Work:
         limits = self.limits
         tasks = [self._task(f, f.stratum.defects.delta) for f in found]
         first = [replace(task, seconds=limits.part(FIRST_SECONDS)) for task in tasks]
-        realised = self.runner.map(realise, first, "real points", self.ends.pieces)
+        realised = self.runner.map(realise, first, "real points")
         self._look_again(tasks, realised, limits.part(SECOND_SECONDS), "real points, second look")
         self._look_again(tasks, realised, limits.seconds, "real points, at length", most=1)
         return realised
@@ -278,7 +260,7 @@ class _Work:
             )
             for i in doubtful
         ]
-        for i, part in zip(doubtful, self.runner.map(realise, again, stage, self.ends.pieces), strict=True):
+        for i, part in zip(doubtful, self.runner.map(realise, again, stage), strict=True):
             realised[i] = _merged(realised[i], part)
 
     def _singular_loci(self) -> SingularLoci | None:
@@ -317,7 +299,7 @@ class _Work:
             )
             for i in left
         ]
-        whole = dict(zip(left, self.runner.map(realise, tasks, "loci", self.ends.all), strict=True))
+        whole = dict(zip(left, self.runner.map(realise, tasks, "loci"), strict=True))
         found = []
         for i, piece in enumerate(known):
             if piece is None or not bounded[i]:
@@ -347,7 +329,7 @@ class _Work:
         """The connected components of curves, closed up."""
         limits = self.limits
         limited = [replace(t, seconds=limits.seconds, memory_mb=limits.memory_mb) for t in tasks]
-        return self.runner.map(count, limited, "curves", self.ends.all)
+        return self.runner.map(count, limited, "curves")
 
     # -- classes -------------------------------------------------------------------------------------
 
@@ -368,8 +350,7 @@ class _Work:
         parts = [with_numbers(part, counted.get(i)) for i, part in enumerate(realised)]
         points = [i for i in own if realised[i].pieces[0].dimension == 0]
         beside = [self._beside(found[i], [p for k in curves for p in realised[k].pieces]) for i in points]
-        counted_points = self.runner.map(realise, beside, "points beside curves", self.ends.all)
-        for i, part in zip(points, counted_points, strict=True):
+        for i, part in zip(points, self.runner.map(realise, beside, "points beside curves"), strict=True):
             numbers = [p.points for p in part.pieces if p.verdict.is_yes]
             number = (
                 None
@@ -413,13 +394,12 @@ def _dimensions(pieces: Iterable[Piece]) -> dict[SingularityType, int]:
 
 
 def _merged(before: Realised, after: Realised) -> Realised:
-    """What two looks at a stratum say together: points and bounds of the first stay known."""
-    if any(not p.verdict.is_undecided for p in after.pieces):
+    """What two looks at a stratum say together: a point stays known where the second is for a bound only."""
+    decided = any(not p.verdict.is_undecided for p in after.pieces)
+    if decided or not any(p.verdict.is_yes for p in before.pieces):
         return after
     pairs = zip(before.pieces, after.pieces, strict=True)
-    return Realised(
-        tuple(replace(p if p.verdict.is_yes else q, extent=_with_bound(p.extent, q.extent)) for p, q in pairs)
-    )
+    return Realised(tuple(replace(p, extent=_with_bound(p.extent, q.extent)) for p, q in pairs))
 
 
 def _with_bound(extent: Extent, other: Extent) -> Extent:

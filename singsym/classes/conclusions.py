@@ -9,21 +9,21 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import islice
 
-from singsym.classes.curves import Counted
-from singsym.classes.extent import EMPTY, Extent, union
-from singsym.classes.realise import Realised
+from singsym.classes.realisation.curve_components import Counted
+from singsym.classes.realisation.realisation import Realised
 from singsym.classes.result import ClassResult, Locus, Piece, conditions_latex
-from singsym.classes.search import Exploration
-from singsym.classes.steps import excluded_in, found_in
-from singsym.classes.types import SingularityClass, SingularityType, feasible_classes
-from singsym.elimination import chance
-from singsym.elimination.attempts import attempt
-from singsym.elimination.conditions import Conditions, Factor
+from singsym.classes.strata.search import Exploration
+from singsym.classes.taxonomy.steps import excluded_in, found_in
+from singsym.classes.taxonomy.types import SingularityClass, SingularityType, feasible_classes
+from singsym.conditions.conditions import Conditions, Factor
+from singsym.effort import chance
+from singsym.effort.attempts import attempt
+from singsym.effort.verdict import Certainty, Verdict, unnoted, weakest
 from singsym.elimination.ideal import Ideal
-from singsym.elimination.verdict import Certainty, Verdict, unnoted, weakest
 from singsym.kinematics.mobility import check_mobility
 from singsym.polynomials import Polynomial
-from singsym.varieties.real.sampling import is_large
+from singsym.varieties.real.dimension.extent import EMPTY, Extent, union
+from singsym.varieties.real.numerical.sampling import is_large
 
 MEMBERSHIP_SECONDS = 2.0
 """So long it is waited for that a stratum lies in a locus as a whole."""
@@ -180,6 +180,7 @@ def at_least(whole: Piece, inside: Piece | None) -> Piece:
 
 
 def locus_of(label: str, factor: Factor, piece: Piece, counted: Counted | None, counting: bool) -> Locus:
+    """A locus of the result, from its piece and the count of its components, where there is one."""
     components, reason, is_open = piece.components, piece.extent.open, True
     if counted is not None:
         components = None if counted.components is None else counted.components[0]

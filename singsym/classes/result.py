@@ -10,14 +10,14 @@ from dataclasses import dataclass, field
 from html import escape
 from typing import Any
 
-from singsym.classes.extent import UNKNOWN, Extent
-from singsym.classes.types import Defects, SingularityClass, SingularityType
-from singsym.elimination.conditions import polynomial_latex
-from singsym.elimination.verdict import Verdict
+from singsym.classes.taxonomy.types import Defects, SingularityClass, SingularityType
+from singsym.conditions.conditions import polynomial_latex
+from singsym.effort.verdict import Verdict
 from singsym.kinematics.reduction import Reduction
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import Mechanism
 from singsym.polynomials import Polynomial
+from singsym.varieties.real.dimension.extent import UNKNOWN, Extent
 
 Equations = tuple[Polynomial, ...]
 

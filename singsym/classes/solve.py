@@ -11,29 +11,29 @@ from concurrent.futures import Executor
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
 
-from singsym.classes.cache import user_cache
 from singsym.classes.classify import Limits, classify_inside
-from singsym.classes.extent import EMPTY, UNKNOWN, Extent, union
-from singsym.classes.processes import processes
-from singsym.classes.realise import Names, configuration
+from singsym.classes.realisation.realisation import Names, configuration
 from singsym.classes.result import Classification, Configuration, Equations, Piece
-from singsym.classes.types import SingularityType
-from singsym.classes.units import Border
-from singsym.classes.work import Runner
-from singsym.elimination.budget import Budget, Undecided
-from singsym.elimination.conditions import Condition, Conditions, conditions
+from singsym.classes.running.disk_cache import user_cache
+from singsym.classes.running.processes import processes
+from singsym.classes.running.runner import Runner
+from singsym.classes.taxonomy.types import SingularityType
+from singsym.classes.unit_border import Border
+from singsym.conditions.conditions import Condition, Conditions, conditions
+from singsym.effort.budget import Budget, Undecided
+from singsym.effort.verdict import Certainty, Verdict, certainties, weakest
 from singsym.elimination.ideal import Ideal
-from singsym.elimination.verdict import Certainty, Verdict, certainties, weakest
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import Mechanism
 from singsym.varieties.cells import Cell
 from singsym.varieties.constructible import ConstructibleSet
 from singsym.varieties.decomposition import Component, decompose
-from singsym.varieties.real.dimension import component_dimension
-from singsym.varieties.real.emptiness import is_excluded
-from singsym.varieties.real.points import RealPoint
-from singsym.varieties.real.witness import RealSystem
-from singsym.varieties.real.zerodim import real_points
+from singsym.varieties.real.dimension.extent import EMPTY, UNKNOWN, Extent, union
+from singsym.varieties.real.dimension.real_dimension import component_dimension
+from singsym.varieties.real.points.exact_point import RealPoint
+from singsym.varieties.real.points.finite_sets import real_points
+from singsym.varieties.real.proofs.emptiness import is_excluded
+from singsym.varieties.real.system import RealSystem
 
 _T = SingularityType
 HOLDS = {

@@ -1,6 +1,6 @@
 """The command that writes the gallery: gallery.
 
-Source: pages are those of `singsym.output.gallery` and `singsym.output.report`.
+Source: pages are those of `singsym.output.html.gallery` and `singsym.output.html.report`.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ def run_gallery(chosen: argparse.Namespace) -> int:
 
     The index is written anew after each mechanism, so that an interruption leaves a gallery of what is done.
     """
-    from singsym.output.gallery import card, index, page_name
-    from singsym.output.report import report
+    from singsym.output.html.gallery import card, index, page_name
+    from singsym.output.html.report import report
 
     names = _chosen(chosen.only)
     folder = Path(chosen.output)

@@ -100,7 +100,7 @@ def run_show(chosen: argparse.Namespace) -> int:
         return 0
     equation = placed(mechanism, chosen.formulation)
     if chosen.format == "json":
-        from singsym.output.data import mechanism_data
+        from singsym.output.plain_data import mechanism_data
 
         emit_data(mechanism_data(mechanism, equation))
     elif chosen.format == "latex":
@@ -130,7 +130,7 @@ def placed(mechanism: Mechanism, formulation: str) -> VelocityEquation:
 def run_check(chosen: argparse.Namespace) -> int:
     """`singsym check MECHANISM`: faults by the data alone, then by generic ranks; 2 where there are any."""
     from singsym.kinematics.mobility import check_mobility
-    from singsym.output.data import mobility_data
+    from singsym.output.plain_data import mobility_data
     from singsym.output.text import mobility_page
 
     mechanism = read(chosen)

@@ -15,12 +15,12 @@ from singsym.cli.singularities import UNDECIDED, classified
 
 if TYPE_CHECKING:
     from singsym.classes.result import Classification
-    from singsym.output.plot_style import Picture
+    from singsym.output.figures.style import Picture
 
 
 def run_report(chosen: argparse.Namespace) -> int:
     """`singsym report MECHANISM -o FILE`: prints the file's name."""
-    from singsym.output.report import report
+    from singsym.output.html.report import report
 
     path = Path(chosen.output or f"{Path(chosen.mechanism).stem}.html")
     _writable(path)
@@ -40,7 +40,7 @@ def run_plot(chosen: argparse.Namespace) -> int:
     code = 0
     try:
         if chosen.shown is None:
-            from singsym.output.plot import plot_mechanism
+            from singsym.output.figures.figure import plot_mechanism
 
             mechanism = read(chosen)
             picture = plot_mechanism(mechanism, equation=placed(mechanism, chosen.formulation))
@@ -69,7 +69,7 @@ def _picture(result: Classification, shown: str) -> Picture:
 
         return plot_strata(result)
     if shown.isdecimal():
-        from singsym.output.plot import plot_class
+        from singsym.output.figures.figure import plot_class
 
         number = int(shown)
         found = next((c for c in result.classes if c.singularity_class.number == number), None)
@@ -79,6 +79,6 @@ def _picture(result: Classification, shown: str) -> Picture:
             fact = "does not occur" if found.verdict.is_no else "has no known configuration"
             raise ValueError(f"class {number} ({found.types}) {fact}: {found.verdict.reason}")
         return plot_class(result, found)
-    from singsym.output.plot_curves import plot_curves
+    from singsym.output.figures.curves import plot_curves
 
     return plot_curves(result, shown)

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from singsym.elimination.progress import Event
+    from singsym.effort.progress import Event
     from singsym.output.page import Page
 
 
@@ -65,7 +65,7 @@ def progress_shown() -> Iterator[None]:
 
     A `KeyboardInterrupt` that passes through gets the last stage as its message.
     """
-    from singsym.elimination import progress
+    from singsym.effort import progress
 
     last = ["starting"]
 

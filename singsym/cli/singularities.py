@@ -21,12 +21,12 @@ UNDECIDED = 3
 
 def run_conditions(chosen: argparse.Namespace) -> int:
     """`singsym conditions MECHANISM`."""
-    from singsym.elimination.conditions import conditions
+    from singsym.conditions.conditions import conditions
 
     mechanism = read(chosen)
     found = conditions(placed(mechanism, chosen.formulation))
     if chosen.format == "json":
-        from singsym.output.data import conditions_data
+        from singsym.output.plain_data import conditions_data
 
         emit_data(conditions_data(mechanism.name, found))
     elif chosen.format == "latex":
@@ -43,11 +43,11 @@ def run_conditions(chosen: argparse.Namespace) -> int:
 
 def run_classes(chosen: argparse.Namespace) -> int:
     """`singsym classes [--n N]`."""
-    from singsym.classes.types import table
+    from singsym.classes.taxonomy.types import table
 
     found = table(chosen.n)
     if chosen.format == "json":
-        from singsym.output.data import classes_data
+        from singsym.output.plain_data import classes_data
 
         emit_data(classes_data(found, chosen.n))
     elif chosen.format == "latex":
@@ -118,7 +118,7 @@ def run_solve(chosen: argparse.Namespace) -> int:
             cache=chosen.cache,
         )
     if chosen.format == "json":
-        from singsym.output.data import solution_data
+        from singsym.output.plain_data import solution_data
 
         emit_data(solution_data(mechanism.name, found))
     elif chosen.format == "latex":
@@ -134,7 +134,7 @@ def run_solve(chosen: argparse.Namespace) -> int:
 
 
 def _limits(chosen: argparse.Namespace) -> Limits:
-    """The budget of all work, a tenth of it at most for each part; the defaults without --budget."""
+    """The budget for the search, a tenth of it at most for each part; the defaults without --budget."""
     from singsym.classes.classify import Limits
 
     usual = Limits()
@@ -148,8 +148,8 @@ def _resumable(chosen: argparse.Namespace) -> None:
 
 def run_at(chosen: argparse.Namespace) -> int:
     """`singsym at MECHANISM --config FILE`."""
-    from singsym.classes.at import at
-    from singsym.classes.given import Given
+    from singsym.classes.configuration.at import at
+    from singsym.classes.configuration.given_values import Given
 
     mechanism = read(chosen)
     placed(mechanism, chosen.formulation)
@@ -163,7 +163,7 @@ def run_at(chosen: argparse.Namespace) -> int:
     except OSError as error:
         raise UserError(f"{chosen.config} cannot be read: {error.strerror}") from None
     if chosen.format == "json":
-        from singsym.output.data import analysis_data
+        from singsym.output.plain_data import analysis_data
 
         emit_data(analysis_data(mechanism.name, found))
     else:

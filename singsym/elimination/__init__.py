@@ -1,1 +1,1 @@
-"""Ideals, the engines that compute with them, and the conditions of the classification."""
+"""Ideals, and the engines that compute with them: bases, elimination, minimal primes, dimensions."""

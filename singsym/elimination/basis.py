@@ -10,12 +10,12 @@ from dataclasses import dataclass
 
 from flint import fmpq_mpoly, fmpz_mpoly_vec
 
+from singsym.effort.budget import Budget, current
+from singsym.effort.verdict import Certainty
 from singsym.elimination import engines
-from singsym.elimination.budget import Budget, current
 from singsym.elimination.engines.division import remainder
+from singsym.elimination.linear_substitution import connected
 from singsym.elimination.memo import remember
-from singsym.elimination.substitution import connected
-from singsym.elimination.verdict import Certainty
 from singsym.polynomials import Polynomial, Ring
 
 
@@ -30,6 +30,7 @@ class Basis:
 
     @property
     def is_unit(self) -> bool:
+        """Whether the ideal is the whole ring."""
         return any(p.is_constant for p in self.polynomials)
 
     def leading_monomials(self) -> tuple[tuple[int, ...], ...]:

@@ -11,16 +11,16 @@ from functools import reduce as fold
 
 from flint import fmpz_mpoly_vec
 
-from singsym.elimination import engines, monomials
-from singsym.elimination.attempts import cut_short
+from singsym.effort.attempts import cut_short
+from singsym.effort.budget import Budget, Undecided, current
+from singsym.effort.verdict import Certainty, Verdict, weakest
+from singsym.elimination import engines, monomial_ideals
 from singsym.elimination.basis import Basis, canonical, groebner_basis
-from singsym.elimination.budget import Budget, Undecided, current
-from singsym.elimination.eliminate import eliminate, without_zeros_of
+from singsym.elimination.elimination_orders import eliminate, without_zeros_of
 from singsym.elimination.engines.division import remainder
+from singsym.elimination.linear_substitution import substitute_solved
 from singsym.elimination.memo import is_known, remember
-from singsym.elimination.primes import minimal_primes
-from singsym.elimination.substitution import substitute_solved
-from singsym.elimination.verdict import Certainty, Verdict, weakest
+from singsym.elimination.minimal_primes import minimal_primes
 from singsym.polynomials import Polynomial, Ring
 
 
@@ -216,13 +216,13 @@ class Ideal:
         """The complex dimension of the zero set; -1 for the unit ideal."""
         basis, variables = self._core()
         unused = len(self.ring.names) - variables
-        found = monomials.independent_sets_dimension(basis.leading_monomials(), len(self.ring.names))
+        found = monomial_ideals.independent_sets_dimension(basis.leading_monomials(), len(self.ring.names))
         return found if found < 0 else found - unused
 
     @property
     def degree(self) -> int:
         """The degree of the top-dimensional part, counted with multiplicity; 0 for the unit ideal."""
-        return monomials.degree(self._graded_basis().leading_monomials(), len(self.ring.names))
+        return monomial_ideals.degree(self._graded_basis().leading_monomials(), len(self.ring.names))
 
     @property
     def is_zero_dimensional(self) -> bool:
@@ -235,7 +235,7 @@ class Ideal:
         if self.dimension > 0:
             raise ValueError(f"an ideal of dimension {self.dimension} has infinitely many zeros")
         basis, _ = self._core()
-        return monomials.degree(basis.leading_monomials(), len(self.ring.names))
+        return monomial_ideals.degree(basis.leading_monomials(), len(self.ring.names))
 
     # -- algebra ---------------------------------------------------------------------------------
 

@@ -14,10 +14,11 @@ from math import inf
 from threading import Lock
 from typing import Any, TypeVar
 
-from singsym.elimination import chance, chaos, engines, patience
-from singsym.elimination.attempts import cut_short, hurries
-from singsym.elimination.budget import Budget, current
-from singsym.elimination.verdict import Certainty, certainties, note, weakest
+from singsym.effort import chance, chaos, patience
+from singsym.effort.attempts import cut_short, hurries
+from singsym.effort.budget import Budget, current
+from singsym.effort.verdict import Certainty, certainties, note, weakest
+from singsym.elimination import engines
 
 Value = TypeVar("Value")
 

@@ -1,8 +1,8 @@
 """From a mechanism to its loop equations and its velocity equation."""
 
 from singsym.kinematics.formulations import FORMULATIONS, place
-from singsym.kinematics.given import from_sympy
 from singsym.kinematics.mobility import Mobility, check_mobility
+from singsym.kinematics.own_equation import from_sympy
 from singsym.kinematics.placement import ConfigurationSpace, JointValue, Placement
 from singsym.kinematics.sampling import sample_configurations
 from singsym.kinematics.velocity import Column, VelocityEquation, loop_closure, velocity_equation

@@ -11,7 +11,7 @@ from functools import cached_property, lru_cache
 from functools import reduce as fold
 
 from singsym.kinematics.placement import ConfigurationSpace
-from singsym.kinematics.short_forms import LONGEST, ShortForms, short_forms
+from singsym.kinematics.reduced_forms import LONGEST, ShortForms, short_forms
 from singsym.kinematics.signs import Signs, signs
 from singsym.polynomials import Polynomial
 

@@ -11,7 +11,7 @@ from fractions import Fraction
 from functools import cached_property, lru_cache
 from math import inf, isfinite
 
-from singsym.kinematics.short_forms import ShortForms, short_forms
+from singsym.kinematics.reduced_forms import ShortForms, short_forms
 from singsym.polynomials import Polynomial, Ring
 from singsym.polynomials.ranges import EVERYTHING, Interval, fraction, meet, polynomial_range, root_above
 

@@ -50,6 +50,7 @@ class Reader:
         self.space = Space.PLANAR
 
     def report(self, place: str, found: str, expected: str, advice: str = "") -> None:
+        """Note a problem at a place of the file."""
         self.problems.append(Problem(place, found, expected, advice, self.file))
 
     @property
@@ -79,6 +80,7 @@ class Reader:
                 self.report(f"{place}.{key}", f"the key {key!r}", f"no such key with {by}", "leave it out")
 
     def text(self, value: Any, place: str) -> str:
+        """Printable text; anything else is a problem."""
         if isinstance(value, str) and all(c.isprintable() or c in "\n\r\t" for c in value):
             return str(value)
         found = f"a control character in {shorten(value)!r}" if isinstance(value, str) else kind_of(value)
@@ -94,15 +96,18 @@ class Reader:
         return text
 
     def items(self, value: Any, place: str) -> list[Any]:
+        """A list; anything else is a problem, and empty."""
         if isinstance(value, (list, tuple)):
             return list(value)
         self.report(place, kind_of(value), "a list in square brackets")
         return []
 
     def texts(self, value: Any, place: str) -> list[str]:
+        """A list of texts."""
         return [self.text(v, f"{place}[{i}]") for i, v in enumerate(self.items(value, place))]
 
     def names(self, value: Any, place: str) -> list[str]:
+        """A list of names."""
         return [self.name(v, f"{place}[{i}]") for i, v in enumerate(self.items(value, place))]
 
     def expression(self, value: Any, place: str) -> sympy.Expr:

@@ -119,6 +119,7 @@ class RankLocus:
 
     @cached_property
     def is_everywhere(self) -> bool:
+        """Whether the rank is too low in every configuration."""
         return any(all(p.is_zero for p in equations) for equations in self.alternatives)
 
 

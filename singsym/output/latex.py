@@ -10,14 +10,14 @@ import re
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
-from singsym.elimination.conditions import polynomial_latex, symbol_latex
+from singsym.conditions.conditions import polynomial_latex, symbol_latex
 from singsym.output.pieces import Group, extent_of, filled, grouped, known_by, loop_equations, moving, varying
 
 if TYPE_CHECKING:
     from singsym.classes.result import Classification, ClassResult, Configuration, Locus, SpacePiece
     from singsym.classes.solve import Solution
-    from singsym.classes.types import Table
-    from singsym.elimination.conditions import Condition, Conditions, Factor
+    from singsym.classes.taxonomy.types import Table
+    from singsym.conditions.conditions import Condition, Conditions, Factor
     from singsym.kinematics.velocity import Column, VelocityEquation
     from singsym.mechanism.model import Mechanism
     from singsym.polynomials import Polynomial, PolynomialMatrix
@@ -258,7 +258,7 @@ def classes_latex(table: Table, n: int) -> str:
 def classification_latex(result: Classification) -> str:
     """The mechanism, L, the reduction, the conditions, and the classes in the layout of Table 2."""
     from singsym.classes.result import gathered
-    from singsym.elimination.conditions import conditions
+    from singsym.conditions.conditions import conditions
 
     found = conditions(result.equation, result.reduction)
     parts = [conditions_latex(found, result.mechanism)]

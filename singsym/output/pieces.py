@@ -9,12 +9,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from singsym.elimination.verdict import described
+from singsym.effort.verdict import described
 
 if TYPE_CHECKING:
-    from singsym.classes.extent import Extent
     from singsym.classes.result import Classification, ClassResult, Equations, Locus, Piece
     from singsym.kinematics.velocity import VelocityEquation
+    from singsym.varieties.real.dimension.extent import Extent
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class Group:
 
 def grouped(pieces: Iterable[Piece], loci: Iterable[Locus]) -> tuple[Group, ...]:
     """The pieces by their paths in order of appearance, points added up."""
-    from singsym.classes.extent import union
+    from singsym.varieties.real.dimension.extent import union
 
     words = {locus.factor: locus.words for locus in loci}
     by_path: dict[Equations, list[Piece]] = {}
@@ -99,7 +99,7 @@ def counted(number: int | str, one: str) -> str:
 
 def known_by(result: Classification, number: int) -> str:
     """How the verdict on a class is known: its certainty, or that the mobility forbids the class."""
-    from singsym.classes.types import feasible_classes
+    from singsym.classes.taxonomy.types import feasible_classes
 
     found = next(c for c in result.classes if c.singularity_class.number == number)
     if found.singularity_class not in feasible_classes(result.equation.n):

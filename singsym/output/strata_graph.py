@@ -12,11 +12,11 @@ from typing import Any
 
 import networkx
 
-from singsym.classes.extent import union
 from singsym.classes.result import Classification, Piece
-from singsym.elimination.budget import Budget, Undecided
+from singsym.effort.budget import Budget, Undecided
 from singsym.elimination.ideal import Ideal
-from singsym.output.plot_style import INK, LINK, PALE, PLATFORM, Picture, canvas
+from singsym.output.figures.style import INK, LINK, PALE, PLATFORM, Picture, canvas
+from singsym.varieties.real.dimension.extent import union
 
 MANY = 16
 """With more pieces than this the nodes are whole classes."""

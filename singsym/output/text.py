@@ -8,17 +8,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from singsym.elimination.verdict import described
+from singsym.effort.verdict import described
 from singsym.output.page import Block, Grid, Page
 from singsym.output.pieces import Group, extent_of, filled, grouped, known_by, loop_equations, moving, varying
 
 if TYPE_CHECKING:
-    from singsym.classes.at import Analysis
-    from singsym.classes.motions import Motion
+    from singsym.classes.configuration.at import Analysis
+    from singsym.classes.configuration.null_motions import Motion
     from singsym.classes.result import Classification, ClassResult, Configuration, Locus, SpacePiece
     from singsym.classes.solve import Solution
-    from singsym.classes.types import Table
-    from singsym.elimination.conditions import Condition, Conditions
+    from singsym.classes.taxonomy.types import Table
+    from singsym.conditions.conditions import Condition, Conditions
     from singsym.elimination.engines.registry import EngineStatus
     from singsym.kinematics.mobility import Mobility
     from singsym.kinematics.velocity import VelocityEquation
@@ -177,7 +177,7 @@ def classes_page(table: Table, n: int) -> Page:
 
 def _legend() -> str:
     """The abbreviations spelled out."""
-    from singsym.classes.types import SingularityClass, SingularityType
+    from singsym.classes.taxonomy.types import SingularityClass, SingularityType
 
     return "\n".join(f"{t}: {SingularityClass(0, t).words}" for t in SingularityType)
 
@@ -364,7 +364,7 @@ def _finite(number: str) -> str:
 
 
 def _how(found: Analysis) -> str:
-    from singsym.classes.given import DOUBLE_DIGITS
+    from singsym.classes.configuration.given_values import DOUBLE_DIGITS
 
     distance = "distance: to the nearest matrix of too low a rank, by singular values"
     scaled = f"lengths over {found.length:.4g}, unit joint screws"

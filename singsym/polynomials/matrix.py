@@ -47,6 +47,7 @@ class PolynomialMatrix:
 
     @property
     def shape(self) -> tuple[int, int]:
+        """Numbers of rows and of columns."""
         return len(self.rows), self.width
 
     def __getitem__(self, index: tuple[int, int]) -> Polynomial:

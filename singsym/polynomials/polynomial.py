@@ -149,10 +149,12 @@ class Polynomial:
 
     @property
     def is_zero(self) -> bool:
+        """Whether it is the zero polynomial."""
         return bool(self.value.is_zero())
 
     @property
     def is_constant(self) -> bool:
+        """Whether no variable is in it."""
         return bool(self.value.is_constant())
 
     @property

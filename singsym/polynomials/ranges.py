@@ -20,6 +20,7 @@ _FINENESS = 2**32
 
 
 def fraction(number: fmpq) -> Fraction:
+    """FLINT's rational number as Python's."""
     return Fraction(int(number.p), int(number.q))
 
 
@@ -52,6 +53,7 @@ def term_ranges(
 
 
 def meet(a: Interval, b: Interval) -> Interval:
+    """The intersection of two intervals."""
     return max(a[0], b[0]), min(a[1], b[1])
 
 

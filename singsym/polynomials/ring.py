@@ -116,10 +116,12 @@ class Ring:
 
     @cached_property
     def zero(self) -> Polynomial:
+        """The zero polynomial."""
         return self.constant(0)
 
     @cached_property
     def one(self) -> Polynomial:
+        """The constant polynomial 1."""
         return self.constant(1)
 
     def constant(self, number: Rational) -> Polynomial:

@@ -12,14 +12,14 @@ from typing import TYPE_CHECKING, Literal
 
 import sympy
 
-from singsym.elimination.budget import Budget, Undecided, current
+from singsym.effort.budget import Budget, Undecided, current
+from singsym.effort.verdict import Verdict, certainties, weakest
 from singsym.elimination.ideal import Ideal
-from singsym.elimination.verdict import Verdict, certainties, weakest
 from singsym.polynomials import Polynomial, Rational, Ring, as_fmpq
 from singsym.varieties.decomposition import Component, decompose
 
 if TYPE_CHECKING:
-    from singsym.varieties.real.witness import RealSystem
+    from singsym.varieties.real.system import RealSystem
 
 Field = Literal["complex", "real"]
 
@@ -44,6 +44,7 @@ class Cell:
 
     @property
     def ring(self) -> Ring:
+        """The ring of the ideal."""
         return self.ideal.ring
 
     @property
@@ -144,7 +145,7 @@ class Cell:
                     return replace(verdict, certainty=weakest(verdict.certainty, *seen))
                 if field == "complex":
                     return Verdict.undecided("the cell has inequalities: ask with field='real'")
-                from singsym.varieties.real.emptiness import is_empty_over_reals
+                from singsym.varieties.real.proofs.emptiness import is_empty_over_reals
 
                 return is_empty_over_reals(self.system)
             except Undecided as reason:
@@ -170,7 +171,7 @@ class Cell:
     @property
     def system(self) -> RealSystem:
         """The cell as a system for the solvers over the real numbers."""
-        from singsym.varieties.real.witness import RealSystem
+        from singsym.varieties.real.system import RealSystem
 
         return RealSystem(self.ring, self.ideal.generators, self.exclusions, self.positive, self.nonnegative)
 

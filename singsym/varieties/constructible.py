@@ -10,16 +10,16 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from singsym.elimination.budget import Budget, Undecided, current
+from singsym.effort.budget import Budget, Undecided, current
+from singsym.effort.verdict import Verdict, weakest
 from singsym.elimination.ideal import Ideal
-from singsym.elimination.verdict import Verdict, weakest
 from singsym.polynomials import Polynomial, Rational, Ring
 from singsym.varieties.cells import Cell, Field
 from singsym.varieties.decomposition import Component, prune
 
 if TYPE_CHECKING:
     from singsym.varieties.projection import Projection
-    from singsym.varieties.real.witness import Witness
+    from singsym.varieties.real.points.certified_point import Witness
 
 
 @dataclass(frozen=True)
@@ -203,7 +203,7 @@ class ConstructibleSet:
         >>> x, y = R.gens
         >>> point, = ConstructibleSet.zeros(R, x**2 + y**2 - 1).sample()
         """
-        from singsym.varieties.real.witness import find_witness
+        from singsym.varieties.real.points.certified_point import find_witness
 
         found: list[Witness] = []
         with current(budget).part():

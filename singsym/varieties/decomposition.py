@@ -10,13 +10,13 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
+from singsym.effort.attempts import attempt
+from singsym.effort.budget import Budget, current
+from singsym.effort.patience import SPLITTING
+from singsym.effort.progress import Sink, report, to
 from singsym.elimination import engines
-from singsym.elimination.attempts import attempt
-from singsym.elimination.budget import Budget, current
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.memo import remember
-from singsym.elimination.patience import SPLITTING
-from singsym.elimination.progress import Sink, report, to
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.irreducibility import Splitting, analyse, independent_variables, leading_exponents
 from singsym.varieties.splitting import (
@@ -55,6 +55,7 @@ class Component:
 
     @property
     def generators(self) -> tuple[Polynomial, ...]:
+        """Generators of the ideal."""
         return self.ideal.generators
 
     @property

@@ -13,11 +13,11 @@ from random import Random
 
 from flint import fmpq, fmpq_mat, fmpq_poly, fmpz_mat, nmod_mat
 
-from singsym.elimination import chance
-from singsym.elimination.budget import current
+from singsym.effort import chance
+from singsym.effort.budget import current
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Polynomial, Ring
-from singsym.varieties.real.quotient import Algebra, quotient_algebra, standard_monomials
+from singsym.varieties.real.points.quotient_algebra import Algebra, quotient_algebra, standard_monomials
 from singsym.varieties.torsion import NormalForms, off_free, presentation, torsion_support
 
 Exponents = tuple[int, ...]
@@ -92,10 +92,12 @@ class Coordinates:
     images: tuple[tuple[str, Polynomial], ...] = ()
 
     def back(self, p: Polynomial) -> Polynomial:
+        """A polynomial of these coordinates in the original ones."""
         return self.original.convert(p).substitute(dict(self.images))
 
     @property
     def split(self) -> int:
+        """The number of dependent variables, which come first."""
         return len(self.ring.names) - self.dimension
 
     @property

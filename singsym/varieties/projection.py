@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
-from singsym.elimination.budget import Undecided
+from singsym.effort.budget import Undecided
+from singsym.effort.verdict import Verdict
 from singsym.elimination.ideal import Ideal
-from singsym.elimination.verdict import Verdict
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.cells import Cell
 from singsym.varieties.constructible import ConstructibleSet

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from singsym.elimination.budget import Undecided
+from singsym.effort.budget import Undecided
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.decomposition import Component
@@ -35,7 +35,7 @@ class PurePiece:
         >>> PurePiece.of(Component(Ideal(x.ring, (x * z, y * z)), False, 2))
         Traceback (most recent call last):
         ...
-        singsym.elimination.budget.Undecided: a part of dimension 2 may hold smaller ones beside it: \
+        singsym.effort.budget.Undecided: a part of dimension 2 may hold smaller ones beside it: \
 Component(x*z, y*z = 0, dimension 2, not proven prime)
         """
         if component.prime:
@@ -52,18 +52,22 @@ Component(x*z, y*z = 0, dimension 2, not proven prime)
 
     @property
     def ideal(self) -> Ideal:
+        """The ideal of the component."""
         return self.component.ideal
 
     @property
     def ring(self) -> Ring:
+        """Its ring."""
         return self.component.ideal.ring
 
     @property
     def dimension(self) -> int:
+        """Its complex dimension."""
         return self.component.dimension
 
     @property
     def codimension(self) -> int:
+        """The number of variables less the dimension."""
         return len(self.ring.names) - self.dimension
 
 

@@ -60,9 +60,11 @@ class Substitution:
 
     @property
     def equation(self) -> Polynomial:
+        """The polynomial that vanishes where the variable has this value."""
         return (self.value.ring.gen(self.name) - self.value).primitive()
 
     def apply(self, polynomials: Iterable[Polynomial]) -> tuple[Polynomial, ...]:
+        """Polynomials with the value put in."""
         return tuple(p.substitute({self.name: self.value}) for p in polynomials)
 
 

@@ -12,8 +12,8 @@ from random import Random
 
 from flint import fmpq, fmpq_mat, fmpz_mpoly_vec, nmod_mat, nmod_poly
 
-from singsym.elimination.budget import current
-from singsym.elimination.chance import random_primes
+from singsym.effort.budget import current
+from singsym.effort.chance import random_primes
 from singsym.elimination.engines.division import remainder
 from singsym.minors.determinant import TooManyTerms, block_determinants
 from singsym.polynomials import Polynomial, PolynomialMatrix, Ring

@@ -15,8 +15,8 @@ from typing import Any
 import mpmath
 import pytest
 
-from singsym.classes.at import Analysis, at
-from singsym.classes.types import SingularityType as T
+from singsym.classes.configuration.at import Analysis, at
+from singsym.classes.taxonomy.types import SingularityType as T
 from singsym.kinematics import check_mobility, velocity_equation
 from singsym.mechanism import Mechanism, define, load
 

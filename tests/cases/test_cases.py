@@ -14,11 +14,11 @@ from pathlib import Path
 
 import pytest
 
-from singsym.classes.at import at
 from singsym.classes.classify import Limits, classify
+from singsym.classes.configuration.at import at
 from singsym.classes.result import Classification, Locus
-from singsym.classes.types import SingularityType as T
-from singsym.elimination.conditions import conditions
+from singsym.classes.taxonomy.types import SingularityType as T
+from singsym.conditions.conditions import conditions
 from singsym.kinematics.reduction import reduce
 from singsym.kinematics.velocity import velocity_equation
 from singsym.mechanism import Mechanism, load

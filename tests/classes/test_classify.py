@@ -8,7 +8,7 @@ import pytest
 
 from singsym.classes.classify import Limits, classify
 from singsym.classes.result import Classification
-from singsym.classes.types import SingularityType, feasible_classes
+from singsym.classes.taxonomy.types import SingularityType, feasible_classes
 from singsym.elimination import engines
 from singsym.elimination.ideal import Ideal
 from singsym.mechanism import JointRate, load

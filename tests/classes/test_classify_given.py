@@ -3,8 +3,8 @@
 import sympy
 
 from singsym.classes.classify import classify_equation
-from singsym.classes.types import SingularityType
-from singsym.kinematics.given import from_sympy
+from singsym.classes.taxonomy.types import SingularityType
+from singsym.kinematics.own_equation import from_sympy
 
 RI, RO, II, IO = SingularityType.RI, SingularityType.RO, SingularityType.II, SingularityType.IO
 

@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from singsym.classes.at import at
 from singsym.classes.classify import classify
+from singsym.classes.configuration.at import at
 from singsym.classes.solve import solve
-from singsym.elimination.conditions import conditions
+from singsym.conditions.conditions import conditions
 from singsym.kinematics.velocity import velocity_equation
 from singsym.mechanism import Mechanism, loads
 from singsym.mechanism.urdf import from_urdf

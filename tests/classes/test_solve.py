@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 
 from singsym.classes.solve import HOLDS, SolutionPiece, Solved, solve
-from singsym.classes.types import feasible_defects
-from singsym.elimination.verdict import Verdict
+from singsym.classes.taxonomy.types import feasible_defects
+from singsym.effort.verdict import Verdict
 from singsym.mechanism import load
 
 

@@ -1,4 +1,4 @@
-"""The page of proofs: its functions are there, and it leaves out nothing that the output can claim."""
+"""The pages of the docs: what they name is there; that of proofs has all that the output can claim."""
 
 from __future__ import annotations
 
@@ -12,19 +12,27 @@ from typing import Any, get_args
 import pytest
 
 import singsym
-from singsym.classes.at import at
 from singsym.classes.classify import classify
+from singsym.classes.configuration.at import at
 from singsym.classes.solve import solve
-from singsym.elimination.conditions import conditions
-from singsym.elimination.verdict import Answer, Certainty
+from singsym.conditions.conditions import conditions
+from singsym.effort.verdict import Answer, Certainty
 from singsym.kinematics.mobility import check_mobility
 from singsym.kinematics.velocity import velocity_equation
 from singsym.mechanism import load
-from singsym.output.data import analysis_data, conditions_data, mobility_data, solution_data
+from singsym.output.plain_data import analysis_data, conditions_data, mobility_data, solution_data
 
 PAGE = resources.files(singsym).joinpath("docs", "proofs.md").read_text(encoding="utf-8")
 FOLDERS = [module.name for module in iter_modules(singsym.__path__) if module.ispkg]
-NAMES = sorted(set(re.findall(rf"`((?:{'|'.join(FOLDERS)})(?:\.\w+)+)`", PAGE)))
+PATHS = re.compile(rf"`((?:{'|'.join(FOLDERS)})(?:\.\w+)+)`")
+NAMES = sorted(set(PATHS.findall(PAGE)))
+OTHERS = {
+    name
+    for page in ("architecture", "contributing", "glossary")
+    for name in PATHS.findall(
+        resources.files(singsym).joinpath("docs", f"{page}.md").read_text(encoding="utf-8")
+    )
+}
 GIVEN, WORDS = "given", "words"
 
 
@@ -42,7 +50,7 @@ def found(name: str) -> Any:
     raise LookupError(name)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", sorted({*NAMES, *OTHERS}))
 def test_the_function_is_there(name: str) -> None:
     assert found(name) is not None
 

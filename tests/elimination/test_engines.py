@@ -10,8 +10,9 @@ from fractions import Fraction
 
 import pytest
 
-from singsym.elimination import engines, progress
-from singsym.elimination.chance import PRIMES
+from singsym.effort import progress
+from singsym.effort.chance import PRIMES
+from singsym.elimination import engines
 from singsym.elimination.engines import checks, msolve, registry
 from singsym.elimination.engines.base import EngineAnswer, EngineFailure, Task
 from singsym.elimination.ideal import Ideal

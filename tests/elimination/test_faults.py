@@ -16,8 +16,9 @@ from pathlib import Path
 import psutil
 import pytest
 
-from singsym.elimination import engines, patience
-from singsym.elimination.budget import Budget, BudgetExceeded, Cancelled, Undecided
+from singsym.effort import patience
+from singsym.effort.budget import Budget, BudgetExceeded, Cancelled, Undecided
+from singsym.elimination import engines
 from singsym.elimination.engines import registry
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Ring
@@ -298,7 +299,8 @@ def test_no_engine_at_all(monkeypatch: pytest.MonkeyPatch, cyclic) -> None:
 
 WORK = """
 import sys, threading
-from singsym.elimination import engines, patience
+from singsym.effort import patience
+from singsym.elimination import engines
 from singsym.elimination.engines import registry
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Ring

@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from singsym.effort.budget import Budget, BudgetExceeded
 from singsym.elimination import engines, memo
-from singsym.elimination.budget import Budget, BudgetExceeded
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Polynomial, Ring
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from singsym.elimination.attempts import attempt, cut_short, hurries
-from singsym.elimination.budget import Budget, Undecided
-from singsym.elimination.chaos import chaos
+from singsym.effort.attempts import attempt, cut_short, hurries
+from singsym.effort.budget import Budget, Undecided
+from singsym.effort.chaos import chaos
+from singsym.effort.patience import scaled
+from singsym.effort.verdict import certainties, note
 from singsym.elimination.memo import is_known, remember
-from singsym.elimination.patience import scaled
-from singsym.elimination.verdict import certainties, note
 
 
 def asked(count: list[int], *, hurried: bool) -> int:

@@ -1,6 +1,6 @@
 """Answers withheld at random, of engines, proofs and searches: the classification says less, nothing else.
 
-Source: fault injection; see `singsym.elimination.chaos`. In every run of the tests some forty runs; all of
+Source: fault injection; see `singsym.effort.chaos`. In every run of the tests some forty runs; all of
 the mechanisms, and as many runs as wanted, by
 
     SINGSYM_RUNS=2000 python -m pytest tests/laws/test_chaos.py -n 2
@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from singsym.classes.classify import Limits, classify
-from singsym.elimination.chaos import chaos
+from singsym.effort.chaos import chaos
 from singsym.elimination.memo import forget
 from singsym.mechanism import Mechanism, library, load
 from singsym.mechanism.urdf import from_urdf
@@ -65,7 +65,7 @@ CHOSEN = draw("chaos").sample(NAMES, min(len(NAMES), max(1, RUNS // EACH)))
 _FEW = SLOW.intersection(CHOSEN)
 MANY = -(-(RUNS - EACH * len(_FEW)) // (len(CHOSEN) - len(_FEW)))
 """Runs for each mechanism that is not slow."""
-WHOLE, HURRIED = Limits(seconds=20, total=120), Limits(seconds=1, total=5)
+WHOLE, HURRIED = Limits(seconds=20, total=120), Limits(seconds=2, total=8)
 
 
 def mechanism(name: str) -> Mechanism:

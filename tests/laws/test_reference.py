@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from singsym.classes.classify import classify
-from singsym.classes.extent import Extent
 from singsym.classes.result import Classification, ClassResult
-from singsym.elimination.verdict import Verdict
+from singsym.effort.verdict import Verdict
 from singsym.mechanism import load
+from singsym.varieties.real.dimension.extent import Extent
 from tests.laws.reference.compare import disagreements, placed, search
 from tests.laws.reference.defects import defects
 from tests.laws.reference.model import model

@@ -14,7 +14,7 @@ import pytest
 
 from singsym.classes.classify import classify
 from singsym.classes.result import Classification
-from singsym.classes.units import Border
+from singsym.classes.unit_border import Border
 from singsym.kinematics.mobility import check_mobility
 from singsym.kinematics.velocity import velocity_equation
 from singsym.mechanism import Mechanism, loads

@@ -7,8 +7,8 @@ from collections.abc import Callable
 import pytest
 
 from singsym.classes.result import Classification
-from singsym.classes.types import SingularityType
-from singsym.elimination.conditions import conditions
+from singsym.classes.taxonomy.types import SingularityType
+from singsym.conditions.conditions import conditions
 from singsym.elimination.ideal import Ideal
 from singsym.kinematics.velocity import velocity_equation
 from singsym.mechanism import Mechanism, load

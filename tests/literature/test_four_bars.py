@@ -9,7 +9,7 @@ from math import cos, isclose, sqrt
 import pytest
 
 from singsym.classes.result import Classification
-from singsym.classes.types import SingularityType
+from singsym.classes.taxonomy.types import SingularityType
 from singsym.mechanism import JointRate, Mechanism, Twist, load
 
 Occurring = Callable[[Mechanism], dict[str, int | None]]

@@ -16,8 +16,8 @@ import pytest
 
 from singsym.classes.classify import Limits, classify
 from singsym.classes.result import Classification
-from singsym.classes.types import Defects, SingularityType, feasible_classes
-from singsym.elimination.conditions import conditions
+from singsym.classes.taxonomy.types import Defects, SingularityType, feasible_classes
+from singsym.conditions.conditions import conditions
 from singsym.kinematics.sampling import numerical_matrix, sample_configurations
 from singsym.kinematics.velocity import VelocityEquation, velocity_equation
 from singsym.mechanism import Mechanism, library, load

@@ -14,7 +14,7 @@ import pytest
 from numpy.typing import NDArray
 
 from singsym.classes.result import Classification
-from singsym.classes.types import SingularityType
+from singsym.classes.taxonomy.types import SingularityType
 from singsym.kinematics.sampling import numerical_matrix, sample_configurations
 from singsym.kinematics.velocity import velocity_equation
 from singsym.mechanism import Mechanism, load

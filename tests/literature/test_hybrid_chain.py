@@ -15,8 +15,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from singsym.classes.types import feasible_classes
-from singsym.elimination.conditions import conditions
+from singsym.classes.taxonomy.types import feasible_classes
+from singsym.conditions.conditions import conditions
 from singsym.kinematics.sampling import NumericalSystem, sample_configurations
 from singsym.kinematics.velocity import VelocityEquation, velocity_equation
 from singsym.mechanism import load

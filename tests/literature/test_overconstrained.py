@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from singsym.classes.result import Classification
-from singsym.classes.types import SingularityType
+from singsym.classes.taxonomy.types import SingularityType
 from singsym.kinematics.sampling import numerical_matrix, sample_configurations
 from singsym.kinematics.velocity import VelocityEquation, velocity_equation
 from singsym.mechanism import Mechanism, load

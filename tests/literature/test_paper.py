@@ -7,7 +7,7 @@ from collections.abc import Callable
 from fractions import Fraction
 
 from singsym.classes.result import Classification
-from singsym.classes.types import SingularityType
+from singsym.classes.taxonomy.types import SingularityType
 from singsym.elimination.ideal import Ideal
 from singsym.mechanism import Mechanism, load
 

@@ -8,13 +8,13 @@ import pytest
 import sympy
 
 from singsym.classes.result import Classification
-from singsym.classes.types import SingularityType
-from singsym.elimination.conditions import conditions
+from singsym.classes.taxonomy.types import SingularityType
+from singsym.conditions.conditions import conditions
 from singsym.elimination.ideal import Ideal
 from singsym.kinematics.velocity import velocity_equation
 from singsym.mechanism import Mechanism, load
 from singsym.polynomials import Polynomial, Ring
-from singsym.varieties.real.zerodim import real_points
+from singsym.varieties.real.points.finite_sets import real_points
 
 Classified = Callable[[Mechanism], Classification]
 

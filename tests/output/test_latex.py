@@ -7,8 +7,8 @@ import pytest
 
 from singsym.classes.classify import classify
 from singsym.classes.solve import solve
-from singsym.classes.types import table
-from singsym.elimination.conditions import conditions
+from singsym.classes.taxonomy.types import table
+from singsym.conditions.conditions import conditions
 from singsym.kinematics.velocity import velocity_equation
 from singsym.mechanism import define, load
 from singsym.output.latex import (

@@ -15,23 +15,23 @@ import sympy
 
 from singsym.classes.classify import classify
 from singsym.classes.conclusions import NOT_COUNTED, remarks_of
-from singsym.classes.extent import Extent
 from singsym.classes.result import Classification, ClassResult, Locus, counts
 from singsym.classes.solve import solve
-from singsym.elimination.chance import use_seed
-from singsym.elimination.conditions import Conditions, conditions
-from singsym.elimination.verdict import Verdict
+from singsym.conditions.conditions import Conditions, conditions
+from singsym.effort.chance import use_seed
+from singsym.effort.verdict import Verdict
 from singsym.kinematics import from_sympy
 from singsym.kinematics.velocity import velocity_equation
 from singsym.mechanism import define, load
-from singsym.output.data import solution_data
-from singsym.output.gallery import card
+from singsym.output.html.gallery import card
+from singsym.output.html.report import report
 from singsym.output.latex import classification_latex
 from singsym.output.page import plain
 from singsym.output.pieces import parts_of
-from singsym.output.report import report
+from singsym.output.plain_data import solution_data
 from singsym.output.strata_graph import strata_graph
 from singsym.output.text import classification_page, solution_page
+from singsym.varieties.real.dimension.extent import Extent
 
 LATE = "the clock stood still"
 OPEN = Extent(1, None, open=LATE)

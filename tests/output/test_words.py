@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from singsym.elimination.conditions import conditions
+from singsym.conditions.conditions import conditions
 from singsym.kinematics.reduction import reduce
 from singsym.kinematics.velocity import velocity_equation
 from singsym.mechanism import load

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 
 import sympy
 
-from singsym.classes.types import Defects
+from singsym.classes.taxonomy.types import Defects
 
 Columns = Sequence[tuple[str, str]]
 

@@ -9,8 +9,8 @@ import pytest
 import sympy
 
 from singsym.classes.classify import classify_equation
-from singsym.classes.types import Defects, SingularityType
-from singsym.kinematics.given import from_sympy
+from singsym.classes.taxonomy.types import Defects, SingularityType
+from singsym.kinematics.own_equation import from_sympy
 from tests.soundness.exact_ranks import defects
 
 T = SingularityType

@@ -8,10 +8,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from singsym.effort.budget import Budget
+from singsym.effort.verdict import Answer
 from singsym.elimination import engines
-from singsym.elimination.budget import Budget
 from singsym.elimination.ideal import Ideal
-from singsym.elimination.verdict import Answer
 from singsym.polynomials import AlgebraicConstant, Polynomial, Ring
 from singsym.varieties.cells import Cell
 from singsym.varieties.constructible import ConstructibleSet

@@ -8,12 +8,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from singsym.effort.budget import Budget, BudgetExceeded, Undecided
+from singsym.effort.chaos import chaos
+from singsym.effort.patience import scaled
 from singsym.elimination import engines
-from singsym.elimination.budget import Budget, BudgetExceeded, Undecided
-from singsym.elimination.chaos import chaos
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.memo import forget
-from singsym.elimination.patience import scaled
 from singsym.polynomials import AlgebraicConstant, Polynomial, Ring
 from singsym.varieties.decomposition import decompose
 

@@ -10,8 +10,8 @@ from random import Random
 
 import pytest
 
+from singsym.effort.budget import Budget, Undecided
 from singsym.elimination import engines
-from singsym.elimination.budget import Budget, Undecided
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.memo import forget
 from singsym.polynomials import Polynomial, Ring
@@ -20,10 +20,10 @@ from singsym.varieties.constructible import ConstructibleSet
 from singsym.varieties.decomposition import Component, decompose
 from singsym.varieties.irreducibility import Splitting
 from singsym.varieties.purity import PurePiece
-from singsym.varieties.real.critical import component_samples, sample_points
-from singsym.varieties.real.dimension import real_dimension
-from singsym.varieties.real.emptiness import is_empty_over_reals
-from singsym.varieties.real.witness import RealSystem
+from singsym.varieties.real.dimension.real_dimension import real_dimension
+from singsym.varieties.real.proofs.critical_points import component_samples, sample_points
+from singsym.varieties.real.proofs.emptiness import is_empty_over_reals
+from singsym.varieties.real.system import RealSystem
 
 Equations = tuple[Polynomial, ...]
 R = Ring(("x", "y", "z"))

@@ -3,6 +3,7 @@
 Source: the registry, which says who does what.
 """
 
+from singsym.effort.patience import patiently, proof_patience
 from singsym.elimination.engines.base import (
     Engine,
     EngineAnswer,
@@ -20,7 +21,6 @@ from singsym.elimination.engines.registry import (
     status,
     use,
 )
-from singsym.elimination.patience import patiently, proof_patience
 
 __all__ = [
     "Engine",

@@ -8,8 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
-from singsym.elimination.budget import Budget, Undecided
-from singsym.elimination.verdict import Certainty
+from singsym.effort.budget import Budget, Undecided
+from singsym.effort.verdict import Certainty
 from singsym.polynomials import Polynomial, Ring
 
 

@@ -10,11 +10,11 @@ from collections.abc import Callable, Sequence
 
 from flint import fmpq_mpoly, fmpz_mpoly, fmpz_mpoly_vec
 
-from singsym.elimination import chance
-from singsym.elimination.chance import PRIMES, numbers_in, random_primes
+from singsym.effort import chance
+from singsym.effort.chance import PRIMES, numbers_in, random_primes
+from singsym.effort.verdict import Certainty
 from singsym.elimination.engines.base import EngineAnswer, EngineFailure, Task
 from singsym.elimination.engines.division import remainder, s_polynomial
-from singsym.elimination.verdict import Certainty
 from singsym.polynomials import Polynomial, Ring
 
 Exponents = tuple[int, ...]

@@ -11,7 +11,7 @@ from typing import Any
 import flint
 from flint import fmpq_mpoly, fmpz_mpoly_vec
 
-from singsym.elimination.budget import Budget
+from singsym.effort.budget import Budget
 from singsym.elimination.engines.base import EngineAnswer, Task
 from singsym.elimination.engines.python_worker import PythonWorker
 from singsym.polynomials import Polynomial

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 
-from singsym.elimination.budget import Budget, current
+from singsym.effort.budget import Budget, current
 from singsym.elimination.engines.base import EngineAnswer, EngineFailure, EngineUnavailable, Task
 from singsym.elimination.engines.discovery import HOW_TO_GET, find_program, output_of
 from singsym.elimination.engines.process import Child

@@ -19,9 +19,9 @@ from collections.abc import Callable, Sequence
 from functools import lru_cache
 from typing import Any
 
-from singsym.elimination.budget import Budget, BudgetExceeded
+from singsym.effort.budget import Budget, BudgetExceeded
+from singsym.effort.processor_time import Meter
 from singsym.elimination.engines.base import EngineFailure
-from singsym.elimination.work import Meter
 
 _OUTPUT_LIMIT = 1 << 30
 _POLL_SECONDS = 0.05

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from flint import fmpq, fmpz
 
-from singsym.elimination.budget import Budget
+from singsym.effort.budget import Budget
 from singsym.elimination.engines.base import EngineFailure, Task
 from singsym.elimination.engines.process import Child
 from singsym.polynomials import Polynomial

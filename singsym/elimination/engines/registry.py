@@ -14,9 +14,11 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
 
-from singsym.elimination import patience, progress
-from singsym.elimination.attempts import attempt
-from singsym.elimination.budget import Budget, Undecided, current
+from singsym.effort import patience, progress
+from singsym.effort.attempts import attempt
+from singsym.effort.budget import Budget, Undecided, current
+from singsym.effort.processor_time import worked
+from singsym.effort.verdict import certainties, note, weakest
 from singsym.elimination.engines import checks
 from singsym.elimination.engines.base import (
     Engine,
@@ -30,8 +32,6 @@ from singsym.elimination.engines.flint_engine import FlintEngine
 from singsym.elimination.engines.msolve import MsolveEngine
 from singsym.elimination.engines.singular import SingularEngine
 from singsym.elimination.engines.sympy_engine import SympyEngine
-from singsym.elimination.verdict import certainties, note, weakest
-from singsym.elimination.work import worked
 from singsym.polynomials import Polynomial
 
 log = logging.getLogger("singsym")

@@ -10,7 +10,7 @@ import threading
 from collections.abc import Sequence
 from itertools import count
 
-from singsym.elimination.budget import Budget
+from singsym.effort.budget import Budget
 from singsym.elimination.engines.base import EngineAnswer, EngineFailure, EngineUnavailable, Task
 from singsym.elimination.engines.discovery import HOW_TO_GET, find_program, output_of
 from singsym.elimination.engines.process import Child

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import sympy
 
-from singsym.elimination.budget import Budget
+from singsym.effort.budget import Budget
 from singsym.elimination.engines.base import EngineAnswer, Task
 from singsym.elimination.engines.python_worker import PythonWorker
 

@@ -48,6 +48,7 @@ class Algebra:
         return Polynomial(self.ring, value)
 
     def vector(self, components: Sequence[sympy.Expr]) -> Coordinates:
+        """Components as constant polynomials."""
         return tuple(self.number(x) for x in components)
 
     @cached_property
@@ -57,12 +58,15 @@ class Algebra:
 
     @property
     def origin(self) -> Coordinates:
+        """The zero vector."""
         return (self.ring.zero,) * 3
 
     def variables(self, names: Sequence[str]) -> Coordinates:
+        """Variables of the ring as a vector."""
         return tuple(self.ring.gen(name) for name in names)
 
     def dot(self, a: Coordinates, b: Coordinates) -> Polynomial:
+        """The scalar product, reduced."""
         total = self.ring.zero
         for x, y in zip(a, b, strict=True):
             if x and y:
@@ -70,6 +74,7 @@ class Algebra:
         return self.reduced(total)
 
     def cross(self, a: Coordinates, b: Coordinates) -> Coordinates:
+        """The vector product, reduced."""
         return tuple(self.reduced(a[i] * b[j] - a[j] * b[i]) for i, j in ((1, 2), (2, 0), (0, 1)))
 
     def combination(self, factors: Sequence[Polynomial], vectors: Sequence[Coordinates]) -> Coordinates:
@@ -82,10 +87,12 @@ class Algebra:
 
 
 def plus(a: Coordinates, b: Coordinates) -> Coordinates:
+    """The sum of two vectors."""
     return tuple(x + y for x, y in zip(a, b, strict=True))
 
 
 def minus(a: Coordinates, b: Coordinates) -> Coordinates:
+    """The difference of two vectors."""
     return tuple(x - y for x, y in zip(a, b, strict=True))
 
 

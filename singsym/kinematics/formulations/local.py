@@ -52,22 +52,27 @@ def is_zero(expression: sympy.Expr) -> bool:
 
 
 def plus(a: Vector, b: Vector) -> Vector:
+    """The sum of two vectors."""
     return tuple(x + y for x, y in zip(a, b, strict=True))
 
 
 def minus(a: Vector, b: Vector) -> Vector:
+    """The difference of two vectors."""
     return tuple(x - y for x, y in zip(a, b, strict=True))
 
 
 def times(factor: sympy.Expr | int, a: Vector) -> Vector:
+    """A multiple of a vector."""
     return tuple(factor * x for x in a)
 
 
 def dot(a: Vector, b: Vector) -> sympy.Expr:
+    """The scalar product, in a short form."""
     return tidy(sum((x * y for x, y in zip(a, b, strict=True)), start=sympy.Integer(0)))
 
 
 def cross(a: Vector, b: Vector) -> Vector:
+    """The vector product."""
     return (
         tidy(a[1] * b[2] - a[2] * b[1]),
         tidy(a[2] * b[0] - a[0] * b[2]),
@@ -76,18 +81,22 @@ def cross(a: Vector, b: Vector) -> Vector:
 
 
 def vanishes(a: Vector) -> bool:
+    """Whether all components are zero, exactly."""
     return all(is_zero(x) for x in a)
 
 
 def apply(matrix: Matrix, a: Vector) -> Vector:
+    """A matrix times a vector."""
     return a if matrix is IDENTITY else tuple(dot(row, a) for row in matrix)
 
 
 def transpose(matrix: Matrix) -> Matrix:
+    """The transposed matrix."""
     return tuple(zip(*matrix, strict=True))
 
 
 def product(a: Matrix, b: Matrix) -> Matrix:
+    """The product of two matrices."""
     if a is IDENTITY or b is IDENTITY:
         return b if a is IDENTITY else a
     columns = transpose(b)

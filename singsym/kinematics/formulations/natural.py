@@ -11,7 +11,7 @@ from singsym.kinematics.formulations import local
 from singsym.kinematics.formulations.assembly import Assembly, placement
 from singsym.kinematics.formulations.frames import Algebra, Body, composed, minus, plus, rigid
 from singsym.kinematics.formulations.platforms import quaternion_frame
-from singsym.kinematics.formulations.sharing import LinkPlan, Origin, plan_links
+from singsym.kinematics.formulations.shared_coordinates import LinkPlan, Origin, plan_links
 from singsym.kinematics.formulations.struts import find_struts, hang_struts
 from singsym.kinematics.placement import Coordinates, Placement
 from singsym.mechanism.model import Joint, JointKind, Mechanism

@@ -52,6 +52,7 @@ class Step:
 
     @property
     def variables(self) -> tuple[str, ...]:
+        """The names of the variables of the joint."""
         return (*(v for turn in self.turns for v in turn.variables), *self.lengths)
 
 

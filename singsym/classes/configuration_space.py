@@ -1,0 +1,135 @@
+"""The configuration space: its pieces, and whether it is smooth where the mobility is increased.
+
+Source: Zlatanov, Fenton, Benhabib (1998), section 2.3 (IIM); the second lemma is singsym's own, from the
+unmixedness theorem (Matsumura, Commutative Ring Theory (1986), theorem 17.6).
+
+Lemma 1.  Where rank L = N, the loop equations are independent: the space is a manifold of dimension n there.
+So a stratum of dimension n or more is a piece of its own: it has inner points, or is larger than all regular
+configurations together.
+
+Lemma 2.  Let L have N rows, so that the loops of the mechanism ask for as many conditions as there are
+freedoms more than n.  Let no complex solution set of the loop equations be larger than n, and that of
+det L_I = 0 with them (or of det L_O = 0) be smaller.  Then the loops are a complete intersection with rank
+L = N almost everywhere on each component, so without multiple components, and wherever rank L < N there are
+more tangents than n: the space is singular exactly in the configurations with IIM.  With parameters as
+variables, it is singular exactly where all gradients, also by the parameters, are dependent.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from singsym.classes.result import ClassResult, Piece, SpacePiece
+from singsym.classes.taxonomy.types import SingularityType
+from singsym.conditions.conditions import Conditions
+from singsym.effort.attempts import attempt
+from singsym.effort.verdict import unnoted, weakest
+from singsym.elimination.ideal import Ideal
+from singsym.mechanism.model import Mechanism
+from singsym.minors.determinant import maximal_minors
+from singsym.polynomials import PolynomialMatrix
+from singsym.varieties.real.dimension.extent import union
+from singsym.varieties.real.points.intervals import jacobian
+from singsym.varieties.real.proofs.emptiness import is_empty_over_reals
+from singsym.varieties.real.system import RealSystem
+
+SECONDS = 5.0
+"""So long the dimensions of lemma 2 are waited for."""
+
+
+def configuration_space(
+    mechanism: Mechanism | None,
+    conditions: Conditions,
+    pieces: Sequence[Piece],
+    classes: Sequence[ClassResult],
+) -> tuple[SpacePiece, ...]:
+    """The pieces of the configuration space, those of singular configurations alone included.
+
+    Without regular configurations, the classes of the largest dimension are the pieces.
+    """
+    smooth, why = _is_smooth(mechanism, conditions, classes)
+    kept = ", ".join(mechanism.translating) if mechanism else ""
+    usual = conditions.equation.n + len(conditions.equation.space.parameters)
+    regular = [p for p in pieces if not p.path and not p.verdict.is_no]
+    found = []
+    for piece in regular:
+        remarks = [] if piece.dimension is not None else [piece.extent.open]
+        if piece.defects.delta:
+            remarks.append(f"rank L is {piece.defects.delta} below N in every configuration")
+        elif piece.defects.types:
+            remarks.append(f"every configuration is singular: {piece.defects.types}")
+        remarks += [why, f"only where these links keep their orientation: {kept}" if kept else ""]
+        remark = "; ".join(filter(None, remarks))
+        found.append(SpacePiece(piece.extent, smooth, piece.defects, piece.verdict, piece.basis, remark))
+    singular = [p for p in pieces if p.path and p.verdict.is_yes]
+    least = usual if found else max((p.extent.at_least for p in singular), default=0)
+    own = [c for c in classes if c.verdict.is_yes and c.extent.at_least >= least]
+    for result in own:
+        inside = [p for p in singular if p.defects.types == result.types and p.extent.at_least >= least]
+        if inside:
+            largest = max(inside, key=lambda p: p.extent.at_least)
+            extent = union(p.extent for p in inside)
+            remark = f"every configuration of this piece is singular: {result.types}"
+            found.append(SpacePiece(extent, smooth, largest.defects, largest.verdict, largest.basis, remark))
+    return tuple(found)
+
+
+def _is_smooth(
+    mechanism: Mechanism | None, conditions: Conditions, classes: Sequence[ClassResult]
+) -> tuple[str, str]:
+    """Whether the whole space is smooth, and what is to be said of it."""
+    increased = [c for c in classes if SingularityType.IIM in c.types]
+    parameters = conditions.equation.space.parameters
+    # of a mode alone the loop equations are not all, and an L of one's own need not be their derivative: the
+    # lemmas say nothing of these
+    if mechanism is not None and not mechanism.translating:
+        if all(c.verdict.is_no for c in increased):
+            return "yes", _resting_on_primes(increased)
+        if any(c.verdict.is_yes for c in increased) and _is_complete_intersection(conditions):
+            if not parameters:
+                return "no", "singular exactly where there is IIM"
+            names = ", ".join(parameters)
+            why = f"smooth or not with {names} as variables; for fixed values singular where there is IIM"
+            return _with_parameters(conditions), why
+    return "undecided", ""
+
+
+def _resting_on_primes(increased: Sequence[ClassResult]) -> str:
+    proven = all(c.verdict.certainty == "proven" for c in increased)
+    return "" if proven else "that it is smooth rests on random primes"
+
+
+def _with_parameters(conditions: Conditions) -> str:
+    """Whether the gradients by all variables and parameters are independent at all real points."""
+    space = conditions.equation.space
+    equations = tuple(f for f in space.equations if f)
+    matrix = PolynomialMatrix.of(space.ring, jacobian(equations, space.ring.names))
+    with attempt("whether a space is smooth", SECONDS):
+        minors = tuple(minor for _, _, minor in maximal_minors(matrix))
+        system = RealSystem(
+            space.ring, (*equations, *minors), space.exclusions, space.positive, space.nonnegative
+        )
+        verdict = is_empty_over_reals(system)
+        if not verdict.is_undecided:
+            return "yes" if verdict.is_yes else "no"
+    return "undecided"
+
+
+def _is_complete_intersection(conditions: Conditions) -> bool:
+    """Whether lemma 2 is proven to hold; False also where that takes long."""
+    equation = conditions.equation
+    space = equation.space
+    if len(equation.matrix.rows) != equation.N:
+        return False
+    usual = equation.n + len(space.parameters)
+    with attempt("the dimensions of the loop equations", SECONDS), unnoted() as seen:
+        if Ideal(space.ring, space.equations).dimension > usual:
+            return False
+        for label in ("5", "4"):
+            alternatives = conditions[label].polynomials
+            if conditions[label].alternatives is None or conditions[label].everywhere:
+                continue
+            parts = (Ideal(space.ring, (*space.equations, *locus)) for locus in alternatives)
+            if all(part.dimension < usual for part in parts) and weakest(*seen) == "proven":
+                return True
+    return False

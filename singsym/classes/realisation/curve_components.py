@@ -1,0 +1,97 @@
+"""The connected components of the curves among loci and classes, closed up: a task that workers run.
+
+Source: `varieties.real.curve` counts those of a curve; what belongs to other classes is taken out here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+
+from singsym.classes.result import Equations
+from singsym.effort.budget import Budget, Undecided
+from singsym.elimination.ideal import Ideal
+from singsym.varieties.real.curves.equations import NotACurve
+from singsym.varieties.real.curves.parts import components_outside
+from singsym.varieties.real.curves.real_curve import real_curve
+from singsym.varieties.real.points.exact_point import RealPoint
+
+
+@dataclass(frozen=True)
+class CurveTask:
+    """A curve off some exclusions, and its images under reflections, whose components are to be counted.
+
+    images: the equations of each, the curve first; exclusions: those of each.
+    """
+
+    images: tuple[Equations, ...]
+    exclusions: tuple[tuple[Equations, ...], ...]
+    seconds: float | None = None
+    memory_mb: int | None = None
+
+    def unfinished(self, reason: str) -> Counted:
+        """No number, for this reason."""
+        return Counted(None, reason, True)
+
+
+@dataclass(frozen=True)
+class Counted:
+    """The numbers of connected components of a curve and its images, or None with the reason.
+
+    open: whether a larger budget could say more.
+    """
+
+    components: tuple[int, ...] | None
+    reason: str = ""
+    open: bool = False
+
+    @property
+    def provisional(self) -> bool:
+        """Whether a larger budget could say more."""
+        return self.open
+
+
+def count(task: CurveTask) -> Counted:
+    """The connected components of a real curve and of its images, each component once.
+
+    What of it lies in the exclusions as a whole is left out; on the rest these are finitely many points, that
+    are left in, but not where they are components by themselves.
+    They are not counted where the complex zeros are no curve, as of x^2 + y^2 = 0 in space.
+    """
+    budget = Budget(work=task.seconds, memory_mb=task.memory_mb)
+    try:
+        with budget:
+            numbers = [_components(task.images[0], task.exclusions[0])]
+            apart = not any(_share_a_curve(one, other) for one, other in combinations(task.images, 2))
+            for k in range(1, len(task.images)):
+                earlier = () if apart else task.images[:k]
+                numbers.append(
+                    numbers[0] if apart else _components(task.images[k], (*task.exclusions[k], *earlier))
+                )
+            return Counted(tuple(numbers))
+    except (NotACurve, Undecided) as reason:
+        return Counted(None, str(reason), budget.remaining() == 0.0)
+
+
+def _share_a_curve(one: Equations, other: Equations) -> bool:
+    return Ideal(one[0].ring, (*one, *other)).dimension > 0
+
+
+def _components(equations: Equations, exclusions: tuple[Equations, ...]) -> int:
+    """Those of one curve; raises `Undecided`."""
+    ideal = Ideal(equations[0].ring, equations)
+    curve = real_curve(ideal)
+    if curve.verdict.is_undecided:
+        raise Undecided(curve.verdict.reason)
+    alone = sum(not _lies_in(p, exclusions) for p in curve.isolated_points)
+    whole = [group for group in exclusions if (ideal + Ideal(ideal.ring, group)).dimension > 0]
+    if not whole:
+        return len(curve.components) + alone
+    rest = ideal
+    for group in whole:
+        rest = rest.saturate(Ideal(ideal.ring, group))
+    return components_outside(curve, whole, rest.generators) + alone
+
+
+def _lies_in(point: RealPoint, loci: tuple[Equations, ...]) -> bool:
+    return any(all(point.sign(p) == 0 for p in locus) for locus in loci)

@@ -1,0 +1,448 @@
+"""From a stratum to real answers: points, dimension, a certified configuration, or a proof that it is empty.
+
+Source: conditions (i)-(vi) of Zlatanov, Fenton, Benhabib (1998) hold on the stratum; certificates as in
+Hauenstein, Sottile, ACM Trans. Math. Softw. 38 (2012) 28.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from itertools import chain
+
+from flint import arb
+
+from singsym.classes.realisation.dimension_bounds import (
+    Bound,
+    bound_above,
+    is_bounded,
+    larger_parts,
+    off_borders,
+    points_off_exclusions,
+)
+from singsym.classes.realisation.local_coordinates import are_missed
+from singsym.classes.result import Configuration, Equations, Piece
+from singsym.classes.strata.branches import Found
+from singsym.classes.strata.occurrence import is_proven_empty, restricted
+from singsym.classes.strata.patches import Patch, unsplit
+from singsym.classes.strata.reflections import image
+from singsym.effort.attempts import attempt
+from singsym.effort.budget import Budget, Undecided
+from singsym.effort.verdict import Certainty, Verdict, certainties, weakest
+from singsym.kinematics.placement import Coordinates, JointValue
+from singsym.varieties.real.dimension.extent import EMPTY, Extent
+from singsym.varieties.real.dimension.hyperplane_cuts import Cut, dimension_by_cuts
+from singsym.varieties.real.dimension.independent_coordinates import are_dependent
+from singsym.varieties.real.dimension.real_dimension import component_dimension, independent, real_dimension
+from singsym.varieties.real.numerical.sampling import numerical_codimension
+from singsym.varieties.real.points.boxed_point import BoxPoint
+from singsym.varieties.real.points.certified_point import Witness, find_witness
+from singsym.varieties.real.points.exact_point import RealPoint
+from singsym.varieties.real.points.finite_sets import NotZeroDimensional, real_points
+from singsym.varieties.real.points.intervals import at_precision, evaluate
+from singsym.varieties.real.proofs.critical_points import sample_points
+from singsym.varieties.real.proofs.vector_charts import Cartesian
+from singsym.varieties.real.system import RealSystem
+from singsym.varieties.unit_circles import Pair
+
+DIGITS = 24
+"""Of decimals inside, more than are reported, so that they can be turned to another unit."""
+SEARCHES = 300
+"""Random starts in the search for a point of a set given by independent equations."""
+
+MISSING_SECONDS = 5.0
+"""So long random values of joints are tried, to see that a stratum is no open part of the space."""
+INDEPENDENCE_SECONDS = 10.0
+"""So long random values of each choice of coordinates are tried, to bound a dimension."""
+DIMENSION_SECONDS = 20.0
+"""So long the dimension of a set that has a certified point is looked for."""
+
+_BITS = 80
+
+
+@dataclass(frozen=True)
+class Names:
+    """What a configuration is reported in: named points of space, and the joints' values."""
+
+    points: Mapping[str, Coordinates] = field(default_factory=dict)
+    joints: Mapping[str, JointValue] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class RealTask:
+    """A stratum to be realised on a feasible set, within a budget.
+
+    most: a bound of the real dimension, if there is one; coordinates: local ones of the space wherever the
+    stratum has that dimension (see `local_coordinates`); circles: variables that are cosine and sine of an
+    angle; known: a dimension, where only a larger one of the stratum would matter; seen: whether a point of
+    it is known.
+    """
+
+    found: Found
+    feasible: RealSystem
+    names: Names
+    seconds: float | None = None
+    memory_mb: int | None = None
+    most: int | None = None
+    coordinates: tuple[JointValue, ...] = ()
+    circles: tuple[Pair, ...] = ()
+    known: int | None = None
+    seen: bool = False
+
+    def unfinished(self, reason: str) -> Realised:
+        """A piece for each image of the stratum, undecided for this reason."""
+        return Realised(tuple(_images(_piece(self, reason), (), self)))
+
+
+@dataclass(frozen=True)
+class Realised:
+    """What a stratum and its images come to: a piece each."""
+
+    pieces: tuple[Piece, ...]
+
+    @property
+    def provisional(self) -> bool:
+        """Whether a larger budget could say more."""
+        return any(piece.provisional for piece in self.pieces)
+
+
+Points = tuple[RealPoint | BoxPoint, ...]
+
+
+def realise(task: RealTask) -> Realised:
+    """The real side of one stratum and of its images: the task that workers run."""
+    stratum = task.found.stratum
+    piece = _piece(task, "not examined")
+    exclusions = (*task.feasible.exclusions, *stratum.loci)
+    system = replace(task.feasible, equations=stratum.equations, exclusions=exclusions)
+    points: Points = ()
+    try:
+        with Budget(work=task.seconds, memory_mb=task.memory_mb), certainties() as seen:
+            if task.known is None:
+                piece, points = _realised(piece, system, task)
+            else:
+                if not task.seen:
+                    with attempt("a point of a stratum", share=1 / 2):
+                        piece, points = _realised(piece, system, task)
+                piece, points = _above(piece, points, system, task)
+        if piece.verdict.is_no:
+            verdict = replace(piece.verdict, certainty=weakest(piece.verdict.certainty, *seen))
+            piece = replace(piece, verdict=verdict)
+    except Undecided as reason:
+        verdict = piece.verdict if points else Verdict.undecided(str(reason))
+        piece = replace(piece, verdict=verdict, extent=replace(piece.extent, open=str(reason)))
+    return Realised(tuple(_images(piece, points, task)))
+
+
+def _above(piece: Piece, points: Points, system: RealSystem, task: RealTask) -> tuple[Piece, Points]:
+    """A piece with what is found of it above a known dimension, or that there is nothing."""
+    known, most = max(task.known or 0, piece.extent.at_least), piece.extent.at_most
+    if most is not None and most <= known:
+        return piece, points
+    for larger, witness in larger_parts(off_borders(system), known):
+        piece, points = _known(piece, Extent(larger, most), witness)
+        known = larger
+    if known == most:
+        return piece, points
+    bound = _bound(system, known, task)
+    reason = f"that there is no part of a dimension above {known} was not proven in time"
+    if bound is not None:
+        reason = f"only a dimension above {known} would matter"
+        extent = replace(piece.extent, at_most=bound.dimension, bounded=bound.certainty)
+        piece = replace(piece, extent=extent)
+    verdict = piece.verdict if points else Verdict.undecided(reason)
+    return replace(piece, verdict=verdict, extent=replace(piece.extent, open=reason)), points
+
+
+def _piece(task: RealTask, reason: str) -> Piece:
+    """What a stratum comes to as long as nothing more is known of it, for this reason."""
+    stratum = task.found.stratum
+    verdict, extent = Verdict.undecided(reason), Extent(-1, task.most, open=reason)
+    return Piece(task.found.path, stratum.equations, stratum.loci, stratum.defects, verdict, extent)
+
+
+def _realised(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, Points]:
+    stratum = task.found.stratum
+    component = stratum.component
+    if component is None:
+        return _given(piece, system, task)
+    if component.dimension == 0:
+        with certainties() as seen:
+            solutions = real_points(stratum.equations)
+        return _finite(piece, solutions, system, stratum.elsewhere, weakest(*seen))
+    with certainties() as seen:
+        found = component_dimension(component, system)
+    return _counted(*_exactly(piece, *found, weakest(*seen)), system, stratum.elsewhere)
+
+
+def _images(piece: Piece, points: Points, task: RealTask) -> Iterator[Piece]:
+    """The piece with its configurations for each image; a point that an earlier image has is left out."""
+    seen: list[RealPoint] = []
+    for reflection in task.found.images:
+        own = []
+        for point in (p.reflect(reflection) for p in points):
+            if piece.points is not None and isinstance(point, RealPoint):
+                if any(point.coincides(other) for other in seen):
+                    continue
+                seen.append(point)
+            own.append(point)
+        if piece.points and not own:
+            continue
+        shown = replace(
+            piece,
+            path=image(piece.path, reflection),
+            basis=image(piece.basis, reflection),
+            exclusions=tuple(image(group, reflection) for group in piece.exclusions),
+            witnesses=tuple(configuration(p, task.names) for p in own),
+        )
+        yield replace(shown, points=len(own), components=len(own)) if piece.points else shown
+
+
+def _given(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, Points]:
+    """A set given by equations: where their gradients are independent at a point, a manifold near it."""
+    elsewhere = task.found.stratum.elsewhere
+    dimension = len(system.ring.names) - len(system.closed_equations)
+    if dimension <= 0:
+        with certainties() as seen:
+            solutions = _finitely_many(system)
+        if solutions is not None:
+            return _finite(piece, solutions, system, elsewhere, weakest(*seen))
+    codimension = numerical_codimension(system)
+    patch = unsplit(system.closed_equations, system.ring)
+    if codimension is None and is_proven_empty(restricted(system, patch)):
+        return _exactly(piece, -1, None)
+    if codimension is None or codimension[0] == len(system.closed_equations):
+        near = [codimension[1]] if codimension else []
+        witness = find_witness(off_borders(system), tries=SEARCHES, near=near)
+        if witness is not None and independent(system.closed_equations, witness.point):
+            return _counted(*_bounded(piece, system, (dimension, witness), task), system, elsewhere)
+    return _counted(*_singular(piece, system, patch), system, elsewhere)
+
+
+def _finitely_many(system: RealSystem) -> Sequence[RealPoint] | None:
+    """All real zeros, off the exclusions where there are too many on them; None where they are not found."""
+    for zeros in (lambda: real_points(system.closed_equations), lambda: points_off_exclusions(system)):
+        with suppress(NotZeroDimensional), attempt("finitely many points", share=1 / 3):
+            return zeros()
+        if not system.exclusions:
+            break
+    return None
+
+
+def _bounded(
+    piece: Piece, system: RealSystem, known: tuple[int, Witness], task: RealTask
+) -> tuple[Piece, Points]:
+    """A set with a certified point, near which it has a dimension: is there a part with a larger one?"""
+    most, (dimension, witness) = piece.extent.at_most, known
+    found, points = _known(piece, Extent(dimension, most), witness)
+    try:
+        for larger, other in chain([known], larger_parts(off_borders(system), dimension)):
+            found, points = _known(piece, Extent(larger, most), other)
+            if larger == most:
+                return found, points
+            if (bound := _bound(system, larger, task)) is not None:
+                extent = Extent(larger, bound.dimension, bound.certainty)
+                return replace(found, extent=extent), points
+        return _by_components(piece, system)
+    except Undecided as reason:
+        return replace(found, extent=replace(found.extent, open=str(reason))), points
+
+
+def _singular(piece: Piece, system: RealSystem, patch: Patch) -> tuple[Piece, Points]:
+    """A set of which no regular point is known; a manifold in it shows that it occurs, with a dimension."""
+    inside = next(larger_parts(off_borders(system), 0), None)
+    if inside is None:
+        return _dependent(piece, system, patch)
+    most, (dimension, witness) = piece.extent.at_most, inside
+    found, points = _known(piece, Extent(dimension, most), witness)
+    if dimension == most:
+        return found, points
+    try:
+        return _dependent(piece, system, patch)
+    except Undecided as reason:
+        return replace(found, extent=replace(found.extent, open=str(reason))), points
+
+
+def _dependent(piece: Piece, system: RealSystem, patch: Patch) -> tuple[Piece, Points]:
+    """A set given by dependent equations: its dimension by cuts, else by its components."""
+    chart, beside = _charted(system, patch)
+    cut = _cut(chart.system)
+    if cut is not None and cut.dimension < 0:
+        verdict = Verdict.no(cut.certainty, reason="there is no complex solution")
+        return replace(piece, verdict=verdict, extent=EMPTY), ()
+    if cut is not None and cut.point is not None and chart.faithful and _is_inside(cut.point, chart.system):
+        dimension = cut.dimension - beside
+        near = _unsolved(chart, patch, cut.point)
+        witness = find_witness(system, tries=SEARCHES, dimension=dimension, near=[near])
+        if witness is not None:
+            return _known(piece, Extent(dimension, dimension, cut.certainty), witness)
+    return _by_components(piece, system)
+
+
+def _is_inside(witness: Witness, system: RealSystem) -> bool:
+    """Whether no inequality is an equality at a point, so that the set is all of the zeros near it."""
+    return all(witness.sign(witness.ring.convert(p)) > 0 for p in system.nonnegative if p)
+
+
+def _by_components(piece: Piece, system: RealSystem) -> tuple[Piece, Points]:
+    with certainties() as seen:
+        found = real_dimension(system)
+    return _exactly(piece, *found, weakest(*seen))
+
+
+def _unsolved(chart: Cartesian, patch: Patch, witness: Witness) -> tuple[float, ...]:
+    """A point of a chart in the variables from before, numerically; those in no equation are zero."""
+    values = dict(zip(witness.ring.names, witness.floats, strict=True))
+    found = list(chart.before([values.get(name, 0.0) for name in patch.ring.names]))
+    solved = {patch.ring.index(name): value.evaluate(found) for name, value in patch.solved.items()}
+    return tuple(solved.get(k, x) for k, x in enumerate(found))
+
+
+def _charted(system: RealSystem, patch: Patch) -> tuple[Cartesian, int]:
+    """A set on a patch in few variables, and how many of the ring's it leaves free there."""
+    chart = Cartesian.of(restricted(system, patch))
+    return chart, len(patch.solved) + chart.left_out
+
+
+def _bound(system: RealSystem, dimension: int, task: RealTask) -> Bound | None:
+    """A bound of the dimension of a set, where it is one."""
+    chart, beside = _charted(system, unsplit(system.closed_equations, system.ring))
+    if is_bounded(chart.system, dimension, beside):
+        return Bound(dimension)
+    if task.most == dimension + 1 and task.coordinates:
+        with attempt("a bound of a dimension", MISSING_SECONDS):
+            if are_missed(system.closed_equations, task.coordinates):
+                return Bound(dimension, "modular")
+    with attempt("a bound of a dimension", INDEPENDENCE_SECONDS):
+        if are_dependent(system, dimension, task.circles):
+            return Bound(dimension, "modular")
+    return bound_above(chart.system, dimension, beside)
+
+
+def _cut(system: RealSystem) -> Cut | None:
+    """The dimension by cuts where it is found in time."""
+    with attempt("the dimension of a set", DIMENSION_SECONDS):
+        return dimension_by_cuts(system)
+    return None
+
+
+def _lies_in(point: RealPoint, loci: tuple[Equations, ...]) -> bool:
+    return any(all(point.sign(p) == 0 for p in locus) for locus in loci)
+
+
+def _finite(
+    piece: Piece,
+    solutions: Sequence[RealPoint],
+    system: RealSystem,
+    elsewhere: tuple[Equations, ...],
+    known: Certainty,
+) -> tuple[Piece, Points]:
+    """The points of a set; known: how it is that the solutions are all that there are, or may be in it."""
+    points = tuple(p for p in solutions if system.admits(p) and not _lies_in(p, elsewhere))
+    if not points:
+        verdict = Verdict.no(
+            known, reason="none of finitely many complex solutions is real, feasible and new"
+        )
+        return replace(piece, verdict=verdict, extent=EMPTY, points=0, components=0), ()
+    count = len(points)
+    extent = Extent(0, 0, known)
+    found = replace(piece, verdict=Verdict.yes(), extent=extent, points=count, components=count)
+    return found, points
+
+
+def _exactly(
+    piece: Piece, dimension: int, witness: Witness | None, known: Certainty = "proven"
+) -> tuple[Piece, Points]:
+    """A set whose real dimension is known, with a point of it where there is one; known: how it is."""
+    if witness is None:
+        verdict = Verdict.no(known, reason="the equations have no real and feasible solution")
+        return replace(piece, verdict=verdict, extent=EMPTY), ()
+    return _known(piece, Extent(dimension, dimension, known), witness)
+
+
+def _known(piece: Piece, extent: Extent, witness: Witness) -> tuple[Piece, Points]:
+    verdict = Verdict.yes("proven" if isinstance(witness.point, RealPoint) else "certified")
+    return replace(piece, verdict=verdict, extent=extent), (witness.point,)
+
+
+def _counted(
+    piece: Piece, points: Points, system: RealSystem, elsewhere: tuple[Equations, ...]
+) -> tuple[Piece, Points]:
+    """The same with all points where the real dimension is 0, although there may be more complex zeros.
+
+    Where no inequality is an equality, each is a connected component of the equations' zeros off the
+    exclusions, and sample points meet all of them; else of the zeros with those equalities.
+    """
+    if piece.dimension != 0 or piece.points is not None:
+        return piece, points
+    try:
+        with certainties() as seen:
+            samples = list(_samples(system, system.away, system.nonnegative))
+    except Undecided as reason:
+        return replace(piece, extent=replace(piece.extent, open=f"points not counted: {reason}")), points
+    distinct: list[RealPoint] = []
+    for point in samples:
+        if not any(point.coincides(other) for other in distinct):
+            distinct.append(point)
+    return _finite(piece, distinct, system, elsewhere, weakest(piece.extent.bounded, *seen))
+
+
+def _samples(system: RealSystem, away: Equations, borders: Equations) -> Iterator[RealPoint]:
+    """A point on each connected component of the zeros, and of those on one border, on two, and so on."""
+    found = sample_points(system.ring, system.closed_equations, nonzero=away)
+    yield from found
+    for k, border in enumerate(borders if found else ()):
+        on_it = replace(system, equations=(*system.equations, border))
+        yield from _samples(on_it, away, borders[k + 1 :])
+
+
+# -- configurations ----------------------------------------------------------------------------------
+
+
+def configuration(point: RealPoint | BoxPoint, names: Names) -> Configuration:
+    """A point as decimal strings of `DIGITS` digits, with a bound on their error.
+
+    Coordinates of the configuration space, of the named points, and joint values: angles in radians.
+    """
+    box = point.refine(_BITS).box
+    with at_precision(_BITS + 64):
+        coordinates = dict(zip(point.ring.names, box, strict=True))
+        points = {
+            f"{name}.{axis}": evaluate(value, box)
+            for name, place in names.points.items()
+            for axis, value in zip("xyz", place, strict=False)
+        }
+        joints = {}
+        for name, value in names.joints.items():
+            found = _joint(value, box)
+            if found is not None:
+                joints[name] = found
+        tables = [_decimals(table) for table in (coordinates, points, joints)]
+        radius = max((r for _, r in tables), default=0.0)
+    return Configuration(tables[0][0], tables[1][0], tables[2][0], f"{radius:.1e}")
+
+
+def _joint(value: JointValue, box: tuple[arb, ...]) -> arb | None:
+    if value.length is not None:
+        return evaluate(value.length, box)
+    if value.square is not None:
+        return evaluate(value.square, box).sqrt()
+    if value.cosine is not None and value.sine is not None:
+        sine, cosine = evaluate(value.sine, box), evaluate(value.cosine, box)
+        if cosine < 0 and sine.contains(0):
+            # atan2 jumps here between pi and -pi, and its ball would hold both
+            return arb.pi() + arb.atan2(-sine, -cosine)
+        return arb.atan2(sine, cosine)
+    return None
+
+
+def _decimals(table: Mapping[str, arb]) -> tuple[dict[str, str], float]:
+    """Rounded midpoints, and a bound on the distance of each from the exact value."""
+    shown: dict[str, str] = {}
+    worst = 0.0
+    for name, value in table.items():
+        shown[name] = value.mid().str(DIGITS, radius=False)
+        error = abs(value - arb(shown[name]))
+        worst = max(worst, float(error.upper()))
+    return shown, worst * (1 + 1e-9)

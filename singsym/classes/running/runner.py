@@ -1,0 +1,175 @@
+"""Running independent tasks on any executor, with a cache on disk that outlives an interruption.
+
+Source: the Executor interface of Python's `concurrent.futures` (PEP 3148), which Dask and MPI offer too.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
+from dataclasses import dataclass
+from typing import Any, Generic, Protocol, TypeVar
+
+from singsym.classes.running.disk_cache import Cache, Entry, Result
+from singsym.effort import chance, progress
+from singsym.effort.budget import Budget
+from singsym.elimination import engines
+
+
+class Task(Protocol):
+    """What a function is given, one of many."""
+
+    def unfinished(self, reason: str) -> Any:
+        """The result where there was no time for it, or its worker died: undecided, for this reason."""
+        ...
+
+
+T = TypeVar("T", bound=Task)
+R = TypeVar("R", bound=Result)
+
+Place = tuple[int, ...]
+"""Which task: its number among the first ones, or among those that follow from the task at `place[:-1]`."""
+
+
+def _with_settings(allowed: tuple[str, ...], seed: int, function: Callable[[T], R], task: T) -> R:
+    with engines.use(*allowed), chance.use_seed(seed):
+        return function(task)
+
+
+@dataclass
+class Runner:
+    """Maps a function over tasks: in this process, or on an executor, looking into the cache first.
+
+    executor: any `concurrent.futures.Executor`; None runs in this process.
+    cache: where results are kept, or None.
+    A task whose worker dies, or that finds no memory, ends unfinished.
+    """
+
+    executor: Executor | None = None
+    cache: Cache | None = None
+
+    def map(
+        self, function: Callable[[T], R], tasks: Sequence[T], stage: str, budget: Budget | None = None
+    ) -> list[R]:
+        """The results in the order of the tasks, whatever order they finish in.
+
+        Those not finished when the budget was used up are what such a task says of itself.
+        """
+        return [result for _, result in self.grow(function, tasks, _nothing, stage, budget or Budget())]
+
+    def grow(
+        self,
+        function: Callable[[T], R],
+        tasks: Sequence[T],
+        following: Callable[[R], Sequence[T]],
+        stage: str,
+        budget: Budget,
+    ) -> list[tuple[T, R]]:
+        """Tasks and their results, with those of the tasks that follow from results, and so on.
+
+        In the order of generations and, within each, of the tasks they follow from; nothing follows from a
+        task that was not finished when the budget was used up.
+        """
+        grown: dict[Place, T] = {}
+        results: dict[Place, R] = {}
+        work: _Queue[T, R] = _Queue(function, self.executor)
+        new: list[tuple[Place, T]] = [((i,), task) for i, task in enumerate(tasks)]
+        try:
+            while True:
+                grown.update(new)
+                arrived: list[tuple[Place, R]] = []
+                for place, task in new:
+                    entry = None if self.cache is None else self.cache.entry(function, task)
+                    known = None if self.cache is None or entry is None else self.cache.get(entry)
+                    if known is None:
+                        work.put(_Job(place, task, entry))
+                    else:
+                        arrived.append((place, known))
+                progress.report(stage, done=len(results) + len(arrived), total=len(grown))
+                if not arrived:
+                    if not work or (results and budget.remaining() == 0.0):
+                        break
+                    for job, result in work.finished():
+                        if self.cache is not None and job.entry is not None:
+                            self.cache.put(job.entry, result)
+                        arrived.append((job.place, result))
+                results.update(arrived)
+                new = [((*p, i), task) for p, r in arrived for i, task in enumerate(following(r))]
+        except Exception:
+            work.call_off()
+            raise
+        # not on an interruption: a pool whose processes die while futures are cancelled never ends
+        work.call_off()
+        reason = f"the budget of {budget.seconds or 0:g} s for {stage} is used up"
+        order = sorted(grown, key=lambda place: (len(place), place))
+        return [(grown[p], results[p] if p in results else grown[p].unfinished(reason)) for p in order]
+
+
+def _nothing(result: object) -> tuple[()]:
+    return ()
+
+
+@dataclass(frozen=True)
+class _Job(Generic[T, R]):
+    """A task to be done, with its place and where its result is kept."""
+
+    place: Place
+    task: T
+    entry: Entry[R] | None
+
+
+class _Queue(Generic[T, R]):
+    """Tasks that wait or are at work, and the results of those that have ended."""
+
+    def __init__(self, function: Callable[[T], R], executor: Executor | None) -> None:
+        self.function = function
+        self.executor = executor
+        self.allowed = engines.allowed()
+        self.seed = chance.seed()
+        self.waiting: deque[_Job[T, R]] = deque()
+        self.running: dict[Future[R], _Job[T, R]] = {}
+
+    def __bool__(self) -> bool:
+        return bool(self.waiting or self.running)
+
+    def put(self, job: _Job[T, R]) -> None:
+        if self.executor is None:
+            self.waiting.append(job)
+        else:
+            self.running[self._submitted(self.executor, job.task)] = job
+
+    def _submitted(self, executor: Executor, task: T) -> Future[R]:
+        try:
+            return executor.submit(_with_settings, self.allowed, self.seed, self.function, task)
+        except BrokenExecutor as error:
+            broken: Future[R] = Future()
+            broken.set_exception(error)
+            return broken
+
+    def finished(self) -> Iterable[tuple[_Job[T, R], R]]:
+        """At least one result, as soon as there is one; without an executor, that of the next task."""
+        if self.executor is None:
+            job = self.waiting.popleft()
+            return [(job, self._result(job, lambda: self.function(job.task)))]
+        done, _ = wait(self.running, return_when=FIRST_COMPLETED)
+        return [(job := self.running.pop(future), self._result(job, future.result)) for future in done]
+
+    def _result(self, job: _Job[T, R], outcome: Callable[[], R]) -> R:
+        try:
+            return outcome()
+        except BrokenExecutor as error:
+            reason = str(error)
+        except MemoryError:
+            reason = "the memory was used up"
+        unfinished: R = job.task.unfinished(reason)
+        return unfinished
+
+    def call_off(self) -> None:
+        for future in self.running:
+            future.cancel()
+
+
+def _with_engines(allowed: tuple[str, ...], function: Callable[[T], R], task: T) -> R:
+    with engines.use(*allowed):
+        return function(task)

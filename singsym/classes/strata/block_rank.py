@@ -1,0 +1,220 @@
+"""The rank of a block of a matrix on a ground, and the minors off whose zeros it holds.
+
+Source: Gantmacher, The Theory of Matrices I (1959), ch. 1 (Kronecker).
+
+Lemma (Kronecker). Where an r-minor of a matrix does not vanish, the rank is r exactly if all (r+1)-minors
+that border it vanish.  So one minor outside an ideal and its bordering minors inside it fix the rank on
+V(ideal) minus V(minor), whether the ideal is prime or not.  Off the common zeros of several r-minors the rank
+is r only where that holds for each of them: no minor is larger, or the larger ones vanish on the whole set.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import combinations, product
+from math import comb, prod
+
+from singsym.classes.strata.ground import Ground, NotEvident
+from singsym.effort.verdict import unnoted, weakest
+from singsym.kinematics.nonzero import Certifier
+from singsym.minors.blocks import easy_columns
+from singsym.minors.determinant import determinant
+from singsym.minors.factored import factored
+from singsym.minors.rank import alternatives
+from singsym.polynomials import Polynomial, PolynomialMatrix
+from singsym.varieties.real.numerical.sampling import Points, is_large
+from singsym.varieties.real.points.intervals import pivots
+
+ALL_MINORS = 24
+"""Up to this many minors of a block, its rank locus is written with all of them."""
+EASY_MINORS = 24
+"""Of a larger block, so many minors that are products of small determinants are used."""
+
+
+@dataclass(frozen=True)
+class BlockRank:
+    """The rank of a block where the `minors` of that size do not all vanish.
+
+    exact: whether all minors of that size vanish where these do; highest: whether the rank is nowhere larger.
+    """
+
+    rank: int
+    minors: tuple[Polynomial, ...]
+    exact: bool = True
+    highest: bool = True
+
+
+MOST_PRODUCTS = 10**10
+"""A determinant whose rows have more terms, multiplied with each other, is not expanded."""
+
+
+def expanded(square: PolynomialMatrix) -> Polynomial:
+    """The determinant; raises `NotEvident` with a short entry where it would be too large.
+
+    Where that entry is known not to vanish, it is a pivot, and the matrix gets smaller.
+    """
+    if prod(sum(map(len, row)) for row in square.rows) > MOST_PRODUCTS:
+        entries = (e for row in square.rows for e in row if not e.is_constant)
+        shortest = min(entries, key=lambda e: (*_weight(e), str(e)))
+        raise NotEvident(shortest, f"a minor of size {square.width} is too large to be expanded")
+    return determinant(square)
+
+
+Places = tuple[tuple[int, ...], tuple[int, ...]]
+"""Rows and columns of a minor."""
+
+
+def numerical_minor(block: PolynomialMatrix, samples: Points) -> Places:
+    """A minor that is as large as the rank of the block at one of the samples, and not small there."""
+    best: Places = ((), ())
+    for x in samples:
+        found = pivots([[float(e) for e in row] for row in block.evaluate(x)])
+        if len(found[0]) > len(best[0]) and is_large(expanded(block.select(*found)), (x,)):
+            best = found
+    return best
+
+
+def _bordered(shape: tuple[int, int], rows: Sequence[int], columns: Sequence[int]) -> Iterator[Places]:
+    for i in range(shape[0]):
+        if i in rows:
+            continue
+        for j in range(shape[1]):
+            if j not in columns:
+                yield tuple(sorted((*rows, i))), tuple(sorted((*columns, j)))
+
+
+def block_rank(
+    block: PolynomialMatrix,
+    ground: Ground,
+    certifier: Certifier,
+    start: Places = ((), ()),
+    largest: bool = False,
+) -> BlockRank:
+    """The rank of a matrix on the ground minus the common zeros of the minors returned.
+
+    Grows a nonvanishing minor border by border until all bordering minors vanish (lemma above); of several
+    nonvanishing ones the one with the simplest factors is taken.
+    start: a nonvanishing minor to start from; largest: whether no rank on the ground is known to be larger.
+
+    >>> from singsym.polynomials import Ring
+    >>> R = Ring(("x", "y"))
+    >>> x, y = R.gens
+    >>> line = Ground(Patch(R, {"y": R.zero}, ()), ((1.0, 0.0),))
+    >>> matrix = PolynomialMatrix.of(R, [[x, y], [x, y]])
+    >>> block_rank(matrix, line, line.certifier(RealSystem(R, ()), ()))
+    BlockRank(rank=1, minors=(x,), exact=True, highest=True)
+    """
+    rows, columns = start
+    last = expanded(block.select(rows, columns)) if rows else None
+    while not largest:
+        candidates = []
+        for r, c in _bordered(block.shape, rows, columns):
+            minor = expanded(block.select(r, c))
+            if minor and not ground.vanishes(minor, certifier):
+                candidates.append((_weight(minor), r, c, minor))
+                if minor.is_constant:
+                    break
+        if not candidates:
+            break
+        _, rows, columns, last = min(candidates, key=lambda t: t[:3])
+    if last is None:
+        return BlockRank(0, ())
+    if last.is_constant:
+        return BlockRank(len(rows), ())
+    highest = largest or len(rows) == min(block.shape) or ground.has_no_zeros_inside(last)
+    return _with_locus(block, ground, certifier, (rows, columns), highest)
+
+
+def _is_rank(block: PolynomialMatrix, ground: Ground, certifier: Certifier, places: Places) -> bool:
+    """Whether all minors that border one are proven to vanish on the ground."""
+    try:
+        borders = (expanded(block.select(*border)) for border in _bordered(block.shape, *places))
+        return all(not minor or ground.vanishes(minor, certifier) for minor in borders)
+    except NotEvident:
+        return False
+
+
+def _weight(minor: Polynomial) -> tuple[int, int]:
+    return (minor.total_degree, len(minor))
+
+
+def _with_locus(
+    block: PolynomialMatrix, ground: Ground, certifier: Certifier, largest: Places, highest: bool
+) -> BlockRank:
+    """r-minors whose common zeros on the ground contain the locus of lower rank: all where they are few.
+
+    largest: one of them, whose bordering minors vanish; highest: whether no rank on the ground is larger.
+    """
+    rows, columns = largest
+    r = len(rows)
+    height, width = block.shape
+    exact = comb(height, r) * comb(width, r) <= ALL_MINORS
+    choices: Iterable[Places]
+    if exact:
+        choices = product(combinations(range(height), r), combinations(range(width), r))
+    elif r == height and (easy := easy_columns(block)):
+        choices = ((rows, c) for c in easy[:EASY_MINORS])
+    else:
+        choices = (largest, *_swapped(block.shape, rows, columns))
+    minors: dict[Polynomial, None] = {}
+    for i, j in choices:
+        minor = expanded(block.select(i, j))
+        if not minor:
+            continue
+        if not (highest or (i, j) == largest or _is_rank(block, ground, certifier, (i, j))):
+            # the rank may be higher where only this minor does not vanish
+            exact = False
+            continue
+        try:
+            with unnoted() as seen:
+                if ground.vanishes(minor, certifier):
+                    exact = exact and weakest(*seen) == "proven"
+                    continue
+        except NotEvident:
+            # with fewer minors the zeros are a larger set
+            exact = False
+            continue
+        if minor.is_constant:
+            return BlockRank(r, ())
+        minors[minor.squarefree_part()] = None
+    return BlockRank(r, tuple(sorted(minors, key=lambda m: (_weight(m), str(m)))), exact, highest)
+
+
+def _swapped(shape: tuple[int, int], rows: tuple[int, ...], columns: tuple[int, ...]) -> Iterator[Places]:
+    """Index sets that differ from the given ones in one row or one column."""
+    for out in rows:
+        for new in range(shape[0]):
+            if new not in rows:
+                yield tuple(sorted({*rows, new} - {out})), columns
+    for out in columns:
+        for new in range(shape[1]):
+            if new not in columns:
+                yield rows, tuple(sorted({*columns, new} - {out}))
+
+
+def union_of_loci(
+    minors: tuple[Polynomial, ...], certifier: Certifier
+) -> tuple[tuple[tuple[Polynomial, ...], ...], bool]:
+    """Common zeros of factors, not proved nonzero, whose union holds the common zeros of the minors.
+
+    Minors with few factors come first; where the choices are too many, the last are left out, and the union
+    may be larger: the second value is False then.
+    """
+    products = []
+    for minor in minors:
+        parts = factored((minor,), certifier)
+        if parts.vanishes:
+            continue
+        if not parts.factors:
+            return (), True
+        products.append(parts.polynomials)
+    if not products:
+        return (), True
+    products.sort(key=lambda factors: (len(factors), sum(len(p) for p in factors)))
+    found, count = alternatives(tuple(products), certifier), len(products)
+    while found is None:
+        # fewer equations hold on a larger set: still all of the locus
+        products = products[: len(products) * 2 // 3]
+        found = alternatives(tuple(products), certifier)
+    return found, len(products) == count

@@ -1,0 +1,340 @@
+"""One branch of the search: a part of the configuration space, taken apart into strata and further branches.
+
+Source: Zlatanov, Fenton, Benhabib (1998), section 3.2; the order of proofs and splits is singsym's own.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+from singsym.classes.strata.ground import Ground, NotEvident
+from singsym.classes.strata.occurrence import (
+    PATIENT_SECONDS,
+    QUICK_SECONDS,
+    SHORT_SECONDS,
+    is_proven_empty,
+    points_on,
+    restricted,
+    samples_of,
+)
+from singsym.classes.strata.patches import Patch, patches, unsplit
+from singsym.classes.strata.ranks import Least, RankProblem, Stratum, ranked
+from singsym.classes.strata.reflections import IDENTITY, Reflection, compose, image, keeps, representatives
+from singsym.classes.taxonomy.types import SingularityType
+from singsym.effort.budget import Budget, Undecided
+from singsym.effort.verdict import Certainty, certainties, weakest
+from singsym.elimination import engines
+from singsym.elimination.ideal import Ideal
+from singsym.polynomials import Polynomial
+from singsym.varieties.decomposition import decompose
+from singsym.varieties.real.proofs.real_consequences import real_consequences
+from singsym.varieties.real.system import RealSystem
+from singsym.varieties.splitting import irreducible_factors
+from singsym.varieties.unit_circles import unit_circles
+
+Equations = tuple[Polynomial, ...]
+MOST_SPLITS = 3
+"""So often a part without known points is split by a variable before it is decomposed."""
+
+
+@dataclass(frozen=True)
+class Branch:
+    """A part of the configuration space to be decomposed into strata.
+
+    equations: its closed conditions, loop equations included; path: the factors and minors among them, as
+        they are printed.
+    away: loci that other branches search, left out here.
+    feasible: the exclusions and inequalities of the feasible set Omega (its equations are not used).
+    first, least, evident: see `ranks.ranked`.
+    symmetries: reflections that keep the whole problem; images: those under which this part stands for
+        other parts, which are not searched.
+    elsewhere: sets that other branches search; their points are not counted here.
+    splits: how often it was split by a variable without knowing a point.
+    seconds, memory_mb: the budget of the decomposition.
+    """
+
+    problem: RankProblem
+    feasible: RealSystem
+    equations: Equations
+    path: Equations = ()
+    away: tuple[Equations, ...] = ()
+    first: str = "L_O"
+    least: tuple[tuple[str, int], ...] = ()
+    evident: tuple[SingularityType, ...] = ()
+    symmetries: tuple[Reflection, ...] = (IDENTITY,)
+    images: tuple[Reflection, ...] = (IDENTITY,)
+    elsewhere: tuple[Equations, ...] = ()
+    splits: int = 0
+    seconds: float | None = None
+    memory_mb: int | None = None
+
+    def unfinished(self, reason: str) -> Explored:
+        """Nothing found and nothing to follow, for this reason."""
+        return Explored(undecided=(reason,))
+
+    @cached_property
+    def kept(self) -> tuple[Reflection, ...]:
+        """The symmetries of this part."""
+        sets = (self.equations, *self.away)
+        return tuple(r for r in self.symmetries if all(keeps(r, equations) for equations in sets))
+
+    @cached_property
+    def admitted(self) -> RealSystem:
+        """The feasible set off what other branches search."""
+        return replace(self.feasible, exclusions=(*self.feasible.exclusions, *self.away))
+
+    def within(
+        self, locus: Equations, away: tuple[Equations, ...], equations: Equations, least: Least
+    ) -> Branch:
+        """The part of this branch on one more locus, with what is known of the ranks there."""
+        path = tuple(dict.fromkeys((*self.path, *locus)))
+        known = dict(self.least)
+        known |= {name: max(defect, known.get(name, 0)) for name, defect in least.items()}
+        return replace(
+            self,
+            equations=(*equations, *locus),
+            path=path,
+            away=(*self.away, *away),
+            least=tuple(sorted(known.items())),
+        )
+
+
+@dataclass(frozen=True)
+class Found:
+    """A stratum, the path that led to it, and the reflections under which it stands for other strata."""
+
+    path: Equations
+    stratum: Stratum
+    images: tuple[Reflection, ...] = (IDENTITY,)
+
+
+@dataclass(frozen=True)
+class Explored:
+    """The strata of a branch, the parts of it left to search, and the reasons where there are none yet.
+
+    certainty: how all this is known.
+    """
+
+    found: tuple[Found, ...] = ()
+    following: tuple[Branch, ...] = ()
+    undecided: tuple[str, ...] = ()
+    certainty: Certainty = "proven"
+
+    @property
+    def provisional(self) -> bool:
+        """Whether a larger budget could say more."""
+        return bool(self.undecided) or self.certainty != "proven"
+
+
+def explore(branch: Branch) -> Explored:
+    """Take one branch apart and find the ranks on each part: the task that workers run.
+
+    Parts without a feasible real point are left out.
+    """
+    with certainties() as seen:
+        found = _explored(branch)
+    return replace(found, certainty=weakest(*seen))
+
+
+def explore_patiently(branch: Branch) -> Explored:
+    """The same with much time for proofs over Q."""
+    with engines.patiently():
+        return explore(branch)
+
+
+def _explored(branch: Branch) -> Explored:
+    work = _Exploring(branch)
+    try:
+        with Budget(work=branch.seconds, memory_mb=branch.memory_mb):
+            whole = unsplit(branch.equations, branch.feasible.ring)
+            system = restricted(branch.admitted, whole)
+            if not points_on(system, whole, 1):
+                if _is_soon_empty(system):
+                    return Explored()
+                work.tried = True
+            parts = patches(branch.equations, branch.admitted.nonzero, branch.feasible.ring)
+            chosen = list(representatives([p.generators for p in parts], branch.kept))
+            for k, images in chosen:
+                work.patch(parts[k], images, alone=len(chosen) == 1)
+    except Undecided as reason:
+        work.undecided.append(str(reason))
+    return Explored(tuple(work.found), tuple(work.following), tuple(work.undecided))
+
+
+@dataclass
+class _Exploring:
+    """A branch at work."""
+
+    branch: Branch
+    found: list[Found] = field(default_factory=list)
+    following: list[Branch] = field(default_factory=list)
+    undecided: list[str] = field(default_factory=list)
+    earlier: list[Equations] = field(default_factory=list)
+    tried: bool = False
+    """Whether all of it was not proven empty in a short time."""
+
+    def patch(self, patch: Patch, images: tuple[Reflection, ...], *, alone: bool) -> None:
+        """Search a patch; from then on its points, and their images, are known to be elsewhere.
+
+        alone: whether there is no other patch, which might have to wait for this one.
+        """
+        before = list(self.found), list(self.following), list(self.earlier)
+        try:
+            self._search(patch, images, alone)
+        except Undecided:
+            if alone:
+                raise
+            self.found, self.following, self.earlier = before
+            self._postpone(patch, images)
+        self.earlier += [image(patch.generators, reflection) for reflection in images]
+
+    def _postpone(self, patch: Patch, images: tuple[Reflection, ...]) -> None:
+        """A patch as a branch of its own."""
+        self.following.append(self._part(images).within((), (), patch.generators, {}))
+
+    def _search(self, patch: Patch, images: tuple[Reflection, ...], alone: bool) -> None:
+        """The ranks on a patch as it stands, where points are known of it."""
+        system = restricted(self.branch.admitted, patch)
+        if () in system.exclusions:
+            return
+        found = points_on(system, patch)
+        if found:
+            try:
+                self._ranked(Ground(patch, found, system=system), images)
+            except NotEvident as doubt:
+                self._split(patch, doubt.polynomial, images)
+            return
+        self._without_points(patch, system, images, alone)
+
+    def _without_points(
+        self, patch: Patch, system: RealSystem, images: tuple[Reflection, ...], alone: bool
+    ) -> None:
+        """A patch of which no point is known: the cheap ways to show that there is none come first."""
+        forced = real_consequences(system, system.closed_equations)
+        if forced is None:
+            return
+        smaller = patches((*patch.generators, *forced), system.nonzero, system.ring, thorough=True)
+        if patch.generators not in [p.generators for p in smaller]:
+            for part in smaller:
+                self.patch(part, images, alone=alone and len(smaller) == 1)
+            return
+        deciding = _deciding_variable(system) if self.branch.splits < MOST_SPLITS else None
+        if not alone:
+            if not is_proven_empty(system, QUICK_SECONDS, modular=False):
+                self._postpone(patch, images)
+        elif deciding is not None:
+            if self.tried or not _is_soon_empty(system):
+                self.branch = replace(self.branch, splits=self.branch.splits + 1)
+                self._split(patch, deciding, images)
+        elif not is_proven_empty(system):
+            self._decomposed(patch, system, images)
+
+    def _decomposed(self, patch: Patch, system: RealSystem, images: tuple[Reflection, ...]) -> None:
+        """The ranks on the components of a patch that may have real points."""
+        known: tuple[Equations, ...] = ()
+        for component in decompose(patch.generators, system.nonzero, ring=system.ring):
+            samples = samples_of(component, system)
+            if samples is not None:
+                self._ranked(Ground(patch, samples, component), images, known)
+                known = (*known, component.generators)
+
+    def _ranked(
+        self, ground: Ground, images: tuple[Reflection, ...], known: tuple[Equations, ...] = ()
+    ) -> None:
+        """The strata of a ground; `known`: other grounds of the same patch, looked at before."""
+        branch = self.branch
+        part = self._part(images, tuple(image(locus, r) for locus in known for r in images))
+        found = ranked(
+            branch.problem, ground, branch.admitted, branch.first, dict(branch.least), branch.evident
+        )
+        if found.stratum is not None:
+            loci = (*branch.away, *found.stratum.loci)
+            stratum = replace(found.stratum, loci=loci, elsewhere=part.elsewhere)
+            self.found += _apart(Found(branch.path, stratum, part.images))
+        taken: tuple[Equations, ...] = ()
+        for whole, least in found.loci.items():
+            for locus in split_product(whole):
+                if not any(set(known) <= set(locus) for known in taken):
+                    self.following.append(part.within(locus, taken, ground.equations, least))
+                    taken = (*taken, locus)
+
+    def _split(self, patch: Patch, polynomial: Polynomial, images: tuple[Reflection, ...]) -> None:
+        """A patch as two branches: the zeros of a polynomial and the rest."""
+        part = self._part(images)
+        taken: tuple[Equations, ...] = ()
+        for factor in split_product((polynomial,)):
+            self.following.append(part.within(factor, taken, patch.generators, {}))
+            taken = (*taken, factor)
+        self.following.append(part.within((), taken, patch.generators, {}))
+
+    def _part(self, images: tuple[Reflection, ...], known: tuple[Equations, ...] = ()) -> Branch:
+        """The branch with the images of one patch, and with what was looked at before."""
+        branch = self.branch
+        all_images = tuple(dict.fromkeys(compose(r, other) for r in branch.images for other in images))
+        return replace(branch, images=all_images, elsewhere=(*branch.elsewhere, *self.earlier, *known))
+
+
+def _apart(found: Found) -> list[Found]:
+    """A stratum with its images, each by itself where what is searched elsewhere is not its own image.
+
+    What an image shares with other strata is then not the image of what the stratum shares with them.
+    """
+    elsewhere = {frozenset(p.primitive() for p in locus) for locus in found.stratum.elsewhere}
+    mapped = (image(locus, r) for r in found.images for locus in found.stratum.elsewhere)
+    if all(frozenset(p.primitive() for p in locus) in elsewhere for locus in mapped):
+        return [found]
+    return [_image_of(found, r) for r in found.images]
+
+
+def _image_of(found: Found, reflection: Reflection) -> Found:
+    stratum = found.stratum
+    component = stratum.component
+    if component is not None:
+        ideal = component.ideal
+        turned = Ideal(ideal.ring, image(ideal.generators, reflection), ideal.given)
+        component = replace(component, ideal=turned)
+    own = replace(
+        stratum,
+        equations=image(stratum.equations, reflection),
+        loci=tuple(image(locus, reflection) for locus in stratum.loci),
+        component=component,
+    )
+    return Found(image(found.path, reflection), own)
+
+
+def _is_soon_empty(system: RealSystem) -> bool:
+    """Whether a part that can be split further is proven empty; primes will do unless there is patience."""
+    if engines.proof_patience() == 1:
+        return is_proven_empty(system, SHORT_SECONDS)
+    return is_proven_empty(system, PATIENT_SECONDS, modular=False)
+
+
+def _deciding_variable(system: RealSystem) -> Polynomial | None:
+    """The variable without which the equations lose most terms, circles aside, if it may be zero or not."""
+    ring = system.ring
+    known = irreducible_factors(system.nonzero) or frozenset()
+    circles = {name for pair in unit_circles(system.equations) for name in pair}
+    counts = Counter(
+        name
+        for p in system.equations
+        if len(p) > 3
+        for m, _ in p.terms()
+        for name, power in zip(ring.names, m, strict=True)
+        if power and name in circles and ring.gen(name) not in known
+    )
+    return ring.gen(max(counts, key=lambda name: (counts[name], name))) if counts else None
+
+
+def split_product(locus: Equations) -> list[Equations]:
+    """One equation as the list of its irreducible factors, several as they are.
+
+    >>> from singsym.polynomials import Ring
+    >>> x, y = Ring(("x", "y")).gens
+    >>> split_product((x**2 * y,))
+    [(x,), (y,)]
+    """
+    if len(locus) != 1:
+        return [locus]
+    return [(factor,) for factor, _ in locus[0].factors()]

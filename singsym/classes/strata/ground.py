@@ -1,0 +1,115 @@
+"""The ground on which ranks are looked for: a patch or a component, with points on it.
+
+Source: Zlatanov, Fenton, Benhabib (1998), section 3.2; what vanishes on a ground is singsym's own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+
+from singsym.classes.strata.patches import Patch, is_combination
+from singsym.effort.attempts import attempt
+from singsym.effort.budget import Undecided
+from singsym.effort.verdict import unnoted, weakest
+from singsym.elimination import engines
+from singsym.elimination.ideal import Ideal
+from singsym.kinematics.nonzero import Certifier
+from singsym.kinematics.placement import ConfigurationSpace
+from singsym.polynomials import Polynomial
+from singsym.varieties.decomposition import Component, decompose
+from singsym.varieties.real.numerical.sampling import Points, is_large
+from singsym.varieties.real.proofs.vector_charts import Cartesian
+from singsym.varieties.real.system import RealSystem
+
+MEMBERSHIP_SECONDS = 2.0
+"""So long a Groebner basis of a patch as a whole is waited for, to prove that minors vanish on it."""
+IRREDUCIBLE_SECONDS = 3.0
+"""So long it is waited for that a patch is proven irreducible."""
+
+
+class NotEvident(Undecided):
+    """What a polynomial does on a set has to be known before more can be said of it."""
+
+    def __init__(self, polynomial: Polynomial, reason: str) -> None:
+        super().__init__(reason)
+        self.polynomial = polynomial
+
+    def __reduce__(self) -> tuple[type[NotEvident], tuple[Polynomial, str]]:
+        return NotEvident, (self.polynomial, str(self))
+
+
+@dataclass(frozen=True)
+class Ground:
+    """Where ranks are asked for: a patch or one component of it, with points on it to guess from.
+
+    system: the patch off the exclusions.
+    """
+
+    patch: Patch
+    samples: Points = ()
+    component: Component | None = None
+    system: RealSystem | None = None
+
+    @cached_property
+    def _chart(self) -> tuple[Cartesian, tuple[Ideal, ...]] | None:
+        if self.system is None:
+            return None
+        chart = Cartesian.of(self.system)
+        return chart, chart.based(MEMBERSHIP_SECONDS * engines.proof_patience())
+
+    @property
+    def equations(self) -> tuple[Polynomial, ...]:
+        """The equations of all of the ground."""
+        return self.component.generators if self.component else self.patch.generators
+
+    def has_no_zeros_inside(self, polynomial: Polynomial) -> bool:
+        """Whether the zeros of a polynomial are proven to hold no open part of the ground.
+
+        On an irreducible ground those are such that do not vanish on all of it; then what vanishes off their
+        zeros vanishes on the whole ground.
+        """
+        if self.component is not None:
+            return self.component.prime and not self.component.ideal.contains(polynomial)
+        left = self.patch.restrict(polynomial)
+        return bool(left) and self._prime is not None and not self._prime.contains(left)
+
+    @cached_property
+    def _prime(self) -> Ideal | None:
+        """The ideal of the patch in the variables that are not solved for, where it is soon proven prime."""
+        with attempt("whether a part is irreducible", IRREDUCIBLE_SECONDS), unnoted() as seen:
+            components = decompose(self.patch.rest, ring=self.patch.ring)
+            if len(components) == 1 and components[0].prime and weakest(*seen) == "proven":
+                return components[0].ideal
+        return None
+
+    def certifier(self, feasible: RealSystem, loci: Iterable[tuple[Polynomial, ...]]) -> Certifier:
+        """What is known of signs and zeros on the ground off the exclusions and off some loci."""
+        restrict = self.patch.restrict
+        groups = (tuple(map(restrict, group)) for group in (*feasible.exclusions, *loci))
+        rest = self.component.generators if self.component else self.patch.rest
+        positive = tuple(map(restrict, feasible.positive))
+        exclusions = tuple(group for group in groups if any(group))
+        return Certifier(ConfigurationSpace(feasible.ring, rest, exclusions, positive))
+
+    def vanishes(self, polynomial: Polynomial, certifier: Certifier) -> bool:
+        """Whether a polynomial is zero on the ground, where True is proven.
+
+        On a component False may be a guess, which only makes a stratum empty and sends its closure down as a
+        locus again.  Raises `NotEvident` on a patch where it seems to be, unproven.
+        """
+        restricted = self.patch.restrict(polynomial)
+        if certifier.normal_form(restricted).is_zero or certifier.shorten(restricted).is_zero:
+            return True
+        if is_large(polynomial, self.samples):
+            return False
+        if self.component is not None and self.component.ideal.contains(polynomial):
+            return True
+        if is_combination(restricted, self.equations if self.component else self.patch.rest):
+            return True
+        if self.component is None:
+            if self._chart is not None and self._chart[0].vanishes(restricted, self._chart[1]):
+                return True
+            raise NotEvident(restricted, "a minor seems to vanish on a part of the configuration space")
+        return not self.component.prime and self.component.ideal.radical_contains(polynomial)

@@ -1,0 +1,97 @@
+"""Whether parts of a configuration space have real points: numerical ones to guess from, or a proof of none.
+
+Source: singsym's own order of the proofs in `varieties.real`, the cheap ones first.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from singsym.classes.strata.patches import Patch
+from singsym.effort.attempts import attempt
+from singsym.effort.budget import current
+from singsym.effort.verdict import Certainty, note, unnoted, weakest
+from singsym.elimination import engines
+from singsym.varieties.decomposition import Component
+from singsym.varieties.real.numerical.sampling import Points, numerical_points
+from singsym.varieties.real.points.finite_sets import real_points
+from singsym.varieties.real.proofs.emptiness import is_empty_over_reals, is_excluded
+from singsym.varieties.real.proofs.vector_charts import Cartesian
+from singsym.varieties.real.system import RealSystem
+
+EMPTINESS_SECONDS = 10.0
+"""So long a proof is waited for that a part has no zero at all, in a first look."""
+REAL_EMPTINESS_SECONDS = 30.0
+"""So long a proof is waited for that it has no real one."""
+SHORT_SECONDS, PATIENT_SECONDS, QUICK_SECONDS = 5.0, 20.0, 1.0
+"""So long either is waited for where a part can be split further, in a first look and in a patient one, and
+where it is one of several parts."""
+
+
+def restricted(system: RealSystem, patch: Patch) -> RealSystem:
+    """A set on a patch, in the variables that are not solved for.
+
+    Exclusions come without zeros and equations; an empty one leaves nothing.
+    """
+    restrict = patch.restrict
+    known = {p.primitive() for p in patch.rest if p}
+    groups = (map(restrict, group) for group in system.exclusions)
+    return RealSystem(
+        system.ring,
+        patch.rest,
+        tuple(tuple(g for g in group if g and g.primitive() not in known) for group in groups),
+        tuple(map(restrict, system.positive)),
+        tuple(map(restrict, system.nonnegative)),
+    )
+
+
+def points_on(system: RealSystem, patch: Patch, count: int = 3) -> Points:
+    """Numerical points of a set on a patch, in all variables."""
+    return numerical_points(replace(system, equations=patch.generators), count)
+
+
+def is_proven_empty(
+    system: RealSystem, seconds: float = REAL_EMPTINESS_SECONDS, *, modular: bool = True
+) -> bool:
+    """Whether it is shown in so many seconds that there is no real point.
+
+    modular: whether an answer that rests on primes will do: with patience only where there is no better one.
+    """
+    hasty = engines.proof_patience() == 1
+    longer = engines.proof_patience() if modular else 1.0
+    chart = Cartesian.of(system)
+
+    def no_complex_point() -> bool:
+        most = min(seconds, EMPTINESS_SECONDS) if hasty else seconds
+        with attempt("a proof that there is no complex point", most * longer):
+            return chart.is_empty(QUICK_SECONDS if modular and hasty else None)
+        return False
+
+    def no_real_point() -> bool:
+        return is_empty_over_reals(chart.trimmed, current().part(seconds * longer), tries=0).is_yes
+
+    doubtful: list[Certainty] = []
+    for proof in (no_complex_point, no_real_point):
+        with unnoted() as seen:
+            answer = proof()
+        if answer and ((modular and hasty) or weakest(*seen) == "proven"):
+            note(weakest(*seen))
+            return True
+        if answer:
+            doubtful += seen
+    if doubtful and modular:
+        note(weakest(*doubtful))
+    return bool(doubtful) and modular
+
+
+def samples_of(component: Component, feasible: RealSystem) -> Points | None:
+    """Real points of a component, numerical ones that only guide; None where it is proven to have none."""
+    if is_excluded(component, feasible):
+        return None
+    if component.dimension == 0:
+        points = [p for p in real_points(component.ideal) if feasible.admits(p)]
+        return tuple(p.floats for p in points) or None
+    found = numerical_points(replace(feasible, equations=component.generators))
+    if not found and is_empty_over_reals(replace(feasible, equations=component.generators), tries=0).is_yes:
+        return None
+    return found

@@ -1,0 +1,243 @@
+"""Quick decomposition of equations by factoring and substituting alone, without Groebner bases.
+
+Source: the first steps of decomposition by splitting, see `varieties.decomposition`; here they are all.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+from itertools import product
+from operator import itemgetter
+
+from flint import fmpq
+
+from singsym.effort.budget import current
+from singsym.elimination.linear_substitution import substitute_solved
+from singsym.polynomials import Polynomial, Ring
+from singsym.polynomials.ranges import fraction, root_above
+from singsym.polynomials.remainders import division
+from singsym.varieties.splitting import factor_equations, irreducible_factors, linear_substitution
+from singsym.varieties.unit_circles import unit_circles
+
+MOST_PATCHES = 64
+LONGEST = 60
+"""Longer equations are not compared with each other."""
+
+
+@dataclass(frozen=True)
+class Patch:
+    """The common zeros of variable = value for each of `solved` and of `rest`, in the other variables."""
+
+    ring: Ring
+    solved: Mapping[str, Polynomial]
+    rest: tuple[Polynomial, ...]
+
+    @property
+    def generators(self) -> tuple[Polynomial, ...]:
+        """All equations, in a fixed order."""
+        equations = [self.ring.gen(name) - value for name, value in self.solved.items()]
+        return tuple(sorted((*equations, *self.rest), key=lambda p: (len(p), str(p))))
+
+    def restrict(self, polynomial: Polynomial) -> Polynomial:
+        """The polynomial with the solved variables put in."""
+        present = {n: v for n, v in self.solved.items() if n in polynomial.variables}
+        return _reduced(polynomial.substitute(present)) if present else polynomial
+
+
+def unsplit(equations: Sequence[Polynomial], ring: Ring) -> Patch:
+    """All zeros as one patch: solved for what equations give at once, but not for the ring's constants.
+
+    >>> R = Ring(("x", "y"))
+    >>> x, y = R.gens
+    >>> unsplit([x - y, x * y - 1], R).generators
+    (x - y, y^2 - 1)
+    """
+    constants = {constant.name for constant in ring.constants}
+    rest, made = substitute_solved(equations, [name for name in ring.names if name not in constants])
+    solved: dict[str, Polynomial] = {}
+    for name, value, _ in made:
+        solved = {n: v.substitute({name: value}) for n, v in solved.items()} | {name: value}
+    return Patch(ring, {n: _reduced(v) for n, v in solved.items()}, _all_reduced(rest))
+
+
+def patches(
+    equations: Iterable[Polynomial], nonzero: Sequence[Polynomial], ring: Ring, *, thorough: bool = False
+) -> tuple[Patch, ...]:
+    """Patches that together hold all zeros of the equations off those of `nonzero`; none where that is seen.
+
+    thorough: also subtract multiples of equations by terms, not only by numbers, where that makes others
+    shorter: more products are seen, and there may be many more patches.
+
+    >>> R = Ring(("x", "y", "z"))
+    >>> x, y, z = R.gens
+    >>> [p.generators for p in patches([x * y, x + z**2, z**2 - 1], [], R)]
+    [(y, x + 1, z + 1), (y, x + 1, z - 1)]
+    """
+    away = irreducible_factors(nonzero) or frozenset()
+    waiting: list[tuple[tuple[Polynomial, ...], dict[str, Polynomial]]] = [(tuple(equations), {})]
+    found: dict[frozenset[Polynomial], Patch] = {}
+    budget = current()
+    while waiting and len(waiting) + len(found) <= MOST_PATCHES:
+        budget.check("splitting equations")
+        equations, solved = waiting.pop()
+        factored = factor_equations(equations, away)
+        if factored is None:
+            continue
+        products = [f for f in factored if len(f) > 1]
+        single = [f[0] for f in factored if len(f) == 1]
+        if products:
+            chosen = min(products, key=lambda f: (len(f), sum(len(p) for p in f), str(f)))
+            others = [_product(f, ring) for f in products if f is not chosen]
+            waiting += [((*single, *others, p), solved) for p in reversed(chosen)]
+            continue
+        single = _shortened(single, thorough)
+        if len(set(single)) < len(factored) or any(p.factors() != [(p, 1)] for p in single):
+            waiting.append((tuple(single), solved))
+            continue
+        step = linear_substitution(single)
+        if step is None:
+            halves = _parallel(single)
+            if halves:
+                waiting += [((*single, *half), solved) for half in halves]
+                continue
+            patch = Patch(ring, solved, tuple(single))
+            found[frozenset(patch.generators)] = patch
+            continue
+        put = {step.name: step.value}
+        known = {n: _reduced(v.substitute(put)) for n, v in solved.items()} | {step.name: step.value}
+        waiting.append((_all_reduced(p.substitute(put) for p in single), known))
+    left = [Patch(ring, solved, equations) for equations, solved in waiting]
+    return tuple(sorted((*found.values(), *left), key=lambda p: str(p.generators)))
+
+
+def is_combination(polynomial: Polynomial, equations: Sequence[Polynomial]) -> bool:
+    """Whether nothing is left of a polynomial that multiples of equations by terms make shorter and shorter.
+
+    >>> x, y, z = Ring(("x", "y", "z")).gens
+    >>> is_combination(x * y * z - z**2 + x - y, [x * y - z, x - y])
+    True
+    """
+    usable = [q for q in equations if len(q) <= LONGEST]
+    left: Polynomial | None = polynomial
+    while left and len(left) <= LONGEST:
+        left = next((p for q in usable if (p := _without(left, q, True)) is not None), None)
+    return left is not None and not left
+
+
+def _product(factors: Sequence[Polynomial], ring: Ring) -> Polynomial:
+    total = ring.one
+    for factor in factors:
+        total = total * factor
+    return total
+
+
+def _shortened(equations: Sequence[Polynomial], thorough: bool) -> list[Polynomial]:
+    """Equations with multiples of each other taken away wherever that leaves fewer terms."""
+    work = list(equations)
+    changed = True
+    while changed:
+        changed = False
+        for i, p in enumerate(work):
+            for q in work:
+                if q is p or not q or len(q) > LONGEST or len(p) > LONGEST:
+                    continue
+                candidate = _without(p, q, thorough)
+                if candidate is not None:
+                    work[i] = candidate
+                    changed = True
+                    break
+    return [p for p in work if p]
+
+
+@lru_cache(maxsize=100_000)
+def _without(p: Polynomial, q: Polynomial, thorough: bool) -> Polynomial | None:
+    """p minus the multiple of q, by a number or a term, that leaves fewest terms; None without a gain."""
+    terms, other = _terms(p), _terms(q)
+    met: Counter[tuple[int, ...]] = Counter()
+    cancelled: Counter[tuple[tuple[int, ...], fmpq]] = Counter()
+    pairs = product(terms, other) if thorough else ((m, m) for m in other if m in terms)
+    for m, n in pairs:
+        quotient = tuple(i - j for i, j in zip(m, n, strict=True))
+        if min(quotient) >= 0:
+            met[quotient] += 1
+            cancelled[quotient, terms[m] / other[n]] += 1
+    # terms of the multiple are lost where they cancel one of p, and gained where they meet none
+    gains = ((count + met[place[0]], place) for place, count in cancelled.items())
+    gain, (quotient, ratio) = max(gains, default=(0, ((), fmpq(0))), key=itemgetter(0))
+    if gain <= len(other):
+        return None
+    candidate = p - q * p.ring.from_dict({quotient: ratio})
+    return candidate.primitive() if candidate else candidate
+
+
+@lru_cache(maxsize=10_000)
+def _terms(p: Polynomial) -> dict[tuple[int, ...], fmpq]:
+    return dict(p.terms())
+
+
+def _parallel(equations: Sequence[Polynomial]) -> list[tuple[Polynomial, Polynomial]]:
+    """Two unit vectors that an equation makes parallel up to a turn or a mirror image: both cases, linear.
+
+    Such is a c1 c2 + b c1 s2 + c s1 c2 + d s1 s2 = 0 with (c, d) = (-b, a) or (b, -a) and constants: it says
+    that (c2, s2) is orthogonal to (a c1 + c s1, b c1 + d s1), whose length r is the root of a^2 + b^2.
+    """
+    circles = [(p.ring.gen(x), p.ring.gen(y)) for p in equations for x, y in unit_circles([p])]
+    for p in equations:
+        # two coordinates, and at most a square of constants
+        if len(p) > LONGEST or {sum(m) for m, _ in p.terms()} - {2, 3, 4}:
+            continue
+        for one in circles:
+            for other in circles:
+                halves = _halves(p, one, other) if one != other else None
+                if halves:
+                    return halves
+    return []
+
+
+def _halves(
+    p: Polynomial, one: tuple[Polynomial, Polynomial], other: tuple[Polynomial, Polynomial]
+) -> list[tuple[Polynomial, Polynomial]] | None:
+    ring = p.ring
+    x2, y2 = other
+    constants = {constant.name for constant in ring.constants}
+    if not {*x2.variables, *y2.variables} <= {*p.variables} <= {*constants, *_names(one), *_names(other)}:
+        return None
+    along, across = (p.coefficient(name, 1) for name in _names(other))
+    if p != x2 * along + y2 * across:
+        return None
+    (a, c), (b, d) = ([side.coefficient(name, 1) for name in _names(one)] for side in (along, across))
+    if along != a * one[0] + c * one[1] or across != b * one[0] + d * one[1]:
+        return None
+    if (c, d) not in ((-b, a), (b, -a)):
+        return None
+    length = _root(_reduced(a * a + b * b))
+    if length is None:
+        return None
+    return [(x2 * length - across, y2 * length + along), (x2 * length + across, y2 * length - along)]
+
+
+def _names(vector: tuple[Polynomial, Polynomial]) -> tuple[str, ...]:
+    return tuple(name for part in vector for name in part.variables)
+
+
+def _reduced(p: Polynomial) -> Polynomial:
+    """The remainder on division by the minimal polynomials of the ring's constants."""
+    names = (constant.name for constant in p.ring.constants)
+    return division(tuple(zip(p.ring.relations, names, strict=True))).remainder(p)
+
+
+def _all_reduced(equations: Iterable[Polynomial]) -> tuple[Polynomial, ...]:
+    """The same for equations, but not for those minimal polynomials among them."""
+    return tuple(q for p in equations if (q := p if p in p.ring.relations else _reduced(p)))
+
+
+def _root(square: Polynomial) -> Fraction | None:
+    """The square root of a positive rational where it is rational."""
+    if not square.is_constant or square.constant <= 0:
+        return None
+    root = root_above(fraction(square.constant))
+    return root if root * root == fraction(square.constant) else None

@@ -1,0 +1,399 @@
+"""The paper's conditions (4), (5) and (i)-(viii), each with its polynomial content.
+
+Source: Zlatanov, Fenton, Benhabib (1998), the propositions of section 2.3, and (4), (5) of section 3.1.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from math import prod
+from typing import TYPE_CHECKING
+
+import sympy
+
+from singsym.conditions.named_quantities import GeometricName, PointNames
+from singsym.kinematics.nonzero import Certifier
+from singsym.kinematics.reduction import Reduction, reduce
+from singsym.minors.blocks import block_triangular
+from singsym.minors.determinant import TooManyTerms
+from singsym.minors.factored import FactoredDeterminant, Unit, determinant_factors
+from singsym.minors.rank import RankBlocks, alternatives, is_small, minor_factors, rank_blocks
+from singsym.polynomials import Polynomial, PolynomialMatrix
+
+if TYPE_CHECKING:
+    from singsym.kinematics.velocity import VelocityEquation
+
+LABELS = ("4", "5", "i", "ii", "iii", "iv", "v", "vi", "vii", "viii")
+"""The labels of the conditions, in the paper's order of printing."""
+
+LARGEST_DETERMINANT = 7
+"""Square blocks up to this size are expanded before elimination; larger ones only after it."""
+
+MOST_TERMS = 50000
+"""Determinants with more terms on the way are left as determinants."""
+
+SHORT = 6
+"""A factor before a determinant's polynomial is cut, in LaTeX, after so many terms."""
+
+_MATRIX = {"4": "L_I", "5": "L_O", "vii": "L_I", "viii": "L_O", "iii": "L_p", "vi": "L"}
+_COMPARED = {"i": ("L_O", "L_p"), "ii": ("L_I", "L_p"), "iv": ("L_I", "L"), "v": ("L_O", "L")}
+_TYPES = {
+    "4": "RO or RPM, II or IIM",
+    "5": "RI or RPM, IO or IIM",
+    "i": "RI",
+    "ii": "RO",
+    "iii": "RPM",
+    "iv": "II",
+    "v": "IO",
+    "vi": "IIM",
+    "vii": "RO or RPM, II or IIM",
+    "viii": "RI or RPM, IO or IIM",
+}
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """rank of `lower` < rank of `upper` + `offset`, by names among L, L_I, L_O, L_p."""
+
+    lower: str
+    upper: str
+    offset: int
+
+
+@dataclass(frozen=True)
+class Factor:
+    """A polynomial whose vanishing is one way to satisfy a condition, with its name if it has one."""
+
+    polynomial: Polynomial
+    multiplicity: int = 1
+    name: GeometricName | None = None
+
+    @property
+    def words(self) -> str:
+        """What its vanishing says of the named points; empty where it was not recognised."""
+        return self.name.quantity.words if self.name else ""
+
+    def latex(self, longest: int = 24) -> str:
+        """The polynomial, cut where it is long; what a named quantity is on the configuration space."""
+        if self.name is None or self._multiple is not None:
+            shown = polynomial_latex(self._multiple or self.polynomial, longest)
+            return f"{self.name.quantity.latex} = {shown}" if self.name else shown
+        scale = polynomial_latex(self.name.scale, SHORT)
+        if len(self.name.scale) > 1:
+            scale = rf"\left({scale}\right)"
+        root = rf"\sqrt{{{self.name.radicand}}}" if self.name.radicand != 1 else ""
+        outer = r"\, ".join(part for part in (scale, root) if part not in ("", "1"))
+        return rf"{self.name.quantity.latex} = {outer}({polynomial_latex(self.polynomial, longest)})"
+
+    def text(self, longest: int | None = None) -> str:
+        r"""The same as plain text; longest: terms before polynomials are cut, None for no cut.
+
+        >>> from singsym.conditions.named_quantities import Quantity
+        >>> from singsym.polynomials import Ring
+        >>> R = Ring(("x", "y"))
+        >>> x, y = R.gens
+        >>> name = GeometricName(Quantity(r"u \cdot v", "u.v", "axes u and v perpendicular"), R.constant(3))
+        >>> print(Factor(x + y, name=name), Factor(x + y, name=name).latex())
+        u.v = 3*(x + y)  (axes u and v perpendicular) u \cdot v = 3(x + y)
+        """
+        if self.name is None or self._multiple is not None:
+            shown = _text(self._multiple or self.polynomial, longest)
+            return f"{self.name.quantity.text} = {shown}" if self.name else shown
+        scale = _text(self.name.scale, longest)
+        if len(self.name.scale) > 1:
+            scale = f"({scale})"
+        root = f"sqrt({self.name.radicand})" if self.name.radicand != 1 else ""
+        outer = [part for part in (scale, root) if part not in ("", "1")]
+        shown = _text(self.polynomial, longest)
+        whole = "*".join((*outer, f"({shown})" if len(self.polynomial) > 1 else shown))
+        return f"{self.name.quantity.text} = {whole}"
+
+    @cached_property
+    def _multiple(self) -> Polynomial | None:
+        """What the named quantity is as one polynomial, where that is as short as a product."""
+        if self.name is None or self.name.radicand != 1 or not self.name.scale.is_constant:
+            return None
+        unit = abs(self.name.scale.constant) == 1
+        return self.polynomial * self.name.scale if unit or len(self.polynomial) == 1 else None
+
+    def __str__(self) -> str:
+        return f"{self.text()}  ({self.words})" if self.name else self.text()
+
+
+def _text(polynomial: Polynomial, longest: int | None) -> str:
+    return str(polynomial) if longest is None else polynomial.short_text(longest)
+
+
+_INDEXED = re.compile(r"(?P<letter>[a-zA-Z])(?:_(?P<index>\w+)|(?P<other>[0-9A-Z]\w*))")
+_COORDINATE = re.compile(r"(?P<index>[A-Z]\w*)(?P<other>)(?P<letter>[xyz])")
+
+
+def symbol_latex(name: str) -> str:
+    r"""A variable in LaTeX: a letter with an index, a coordinate with its point; others as SymPy prints them.
+
+    >>> print(symbol_latex("c_A1"), symbol_latex("x_B"), symbol_latex("B1x"), symbol_latex("d3"))
+    c_{\mathrm{A1}} x_{B} x_{\mathrm{B1}} d_{3}
+    """
+    found = _COORDINATE.fullmatch(name) or _INDEXED.fullmatch(name)
+    if found is None:
+        return str(sympy.latex(sympy.Symbol(name)))
+    letter, index = found["letter"], (found["index"] or found["other"]).replace("_", ",")
+    plain = len(index) == 1 or index.isdigit()
+    return f"{letter}_{{{index}}}" if plain else f"{letter}_{{\\mathrm{{{index}}}}}"
+
+
+@lru_cache(maxsize=10_000)
+def polynomial_latex(polynomial: Polynomial, longest: int = 24) -> str:
+    """A polynomial in LaTeX, cut after some terms with the number of those left out."""
+    ring = polynomial.ring
+    names = {sympy.Symbol(name): symbol_latex(name) for name in ring.names}
+    if len(polynomial) <= longest:
+        return str(sympy.latex(ring.to_sympy(polynomial), symbol_names=names))
+    first = ring.to_sympy(ring.from_dict(dict(polynomial.terms()[:longest])))
+    rest = len(polynomial) - longest
+    return rf"{sympy.latex(first, symbol_names=names)} + \cdots\ (\text{{{rest} more terms}})"
+
+
+@dataclass(frozen=True)
+class Condition:
+    """One of the paper's conditions for a mechanism.
+
+    statement, latex_statement: as the paper prints it.
+    alternatives: it holds where all factors of at least one alternative vanish (with the loop equations, on
+        the feasible set); None where it is left as a comparison of ranks.  No alternative: nowhere.
+    everywhere: it holds in every configuration.
+    units: the factors that were taken away, each with the reason.
+    blocks: the blocks whose ranks add, with the constant, for (iii), (vi) and where a determinant is no way.
+    """
+
+    label: str
+    types: str
+    statement: str
+    latex_statement: str
+    alternatives: tuple[tuple[Factor, ...], ...] | None = None
+    everywhere: bool = False
+    units: tuple[Unit, ...] = ()
+    comparison: Comparison | None = None
+    blocks: RankBlocks | None = None
+
+    @property
+    def factors(self) -> tuple[Factor, ...]:
+        """The factors of a determinant: those of the alternatives that are one equation."""
+        return tuple(a[0] for a in self.alternatives or () if len(a) == 1)
+
+    @property
+    def polynomials(self) -> tuple[tuple[Polynomial, ...], ...]:
+        """The alternatives as bare polynomials."""
+        return tuple(tuple(f.polynomial for f in a) for a in self.alternatives or ())
+
+    def __repr__(self) -> str:
+        return f"Condition({self.label}: {self.statement})"
+
+    def __str__(self) -> str:
+        lines = [f"({self.label}) {self.statement}: {self.types}"]
+        if self.everywhere:
+            lines.append("  in every configuration")
+        elif self.alternatives is not None and not self.alternatives:
+            lines.append("  in no configuration")
+        elif self.blocks is not None and self.alternatives is None:
+            sizes = ", ".join("x".join(map(str, block.shape)) for block in self.blocks.blocks)
+            lines.append(f"  by the rank {self.blocks.constant} + that of {sizes}, not written out")
+        for alternative in self.alternatives or ():
+            joined = "\n    and ".join(
+                f"{factor} = 0" if not factor.name else f"{factor}" for factor in alternative
+            )
+            lines.append(f"  {joined}")
+        lines += [f"  without the factor {unit}" for unit in self.units]
+        return "\n".join(lines)
+
+    def latex(self) -> str:
+        """The condition with its content, as lines of an `aligned` environment."""
+        lines = [rf"(\mathrm{{{self.label}}})\quad & {self.latex_statement}"]
+        if self.everywhere:
+            lines.append(r"& \text{in every configuration}")
+        elif self.alternatives is not None and not self.alternatives:
+            lines.append(r"& \text{in no configuration}")
+        for place, alternative in enumerate(self.alternatives or ()):
+            lead = r"\iff" if place == 0 else r"\text{or}"
+            for factor in alternative:
+                lines.append(rf"& {lead}\quad {factor.latex()} = 0")
+                lead = r"\text{and}"
+        body = " \\\\\n".join(lines)
+        return f"\\begin{{aligned}}\n{body}\n\\end{{aligned}}"
+
+    def _repr_latex_(self) -> str:
+        return f"$\\displaystyle {self.latex()}$"
+
+
+@dataclass(frozen=True, eq=False)
+class Conditions:
+    """The conditions of a mechanism, each worked out when it is first asked for.
+
+    equation: the velocity equation as it is; reduction: the same after section 4.2.
+    """
+
+    equation: VelocityEquation
+    reduction: Reduction
+
+    def __getitem__(self, label: str) -> Condition:
+        """A condition by its label; raises `KeyError` naming the labels."""
+        if label not in LABELS:
+            raise KeyError(f"no condition {label!r}: the paper has {', '.join(LABELS)}")
+        if label not in self._known:
+            self._known[label] = self._build(label)
+        return self._known[label]
+
+    def __iter__(self) -> Iterator[Condition]:
+        return (self[label] for label in LABELS)
+
+    @cached_property
+    def _known(self) -> dict[str, Condition]:
+        return {}
+
+    @cached_property
+    def certifier(self) -> Certifier:
+        """What is proved nonzero on the feasible set."""
+        return Certifier(self.equation.space)
+
+    @cached_property
+    def names(self) -> PointNames:
+        """The names for determinants of points."""
+        return PointNames(self.certifier)
+
+    def matrix(self, name: str) -> PolynomialMatrix:
+        """L, L_I, L_O or L_p of the reduced velocity equation."""
+        found: PolynomialMatrix = getattr(self.reduction.equation, name)
+        return found
+
+    def rank_blocks(self, name: str) -> RankBlocks:
+        """One of the four matrices taken apart; its rank in the mechanism is `constant` + the blocks' ranks.
+
+        The constant counts the reduction's eliminations as well.
+        """
+        if name not in self._blocks:
+            found = rank_blocks(self.matrix(name), self.certifier)
+            constant = found.constant + self.reduction.constant
+            shape = getattr(self.equation, name).shape
+            self._blocks[name] = RankBlocks(shape, found.blocks, constant, found.record)
+        return self._blocks[name]
+
+    @cached_property
+    def _blocks(self) -> dict[str, RankBlocks]:
+        return {}
+
+    # -- building ------------------------------------------------------------------------------------
+
+    def _build(self, label: str) -> Condition:
+        N, n = self.equation.N, self.equation.n
+        if label in _COMPARED:
+            lower, upper = _COMPARED[label]
+            offset = n if upper == "L_p" else 0
+            tail = f" + {offset}" if offset else ""
+            return Condition(
+                label,
+                _TYPES[label],
+                f"rank {lower} < rank {upper}{tail}",
+                rf"\operatorname{{rank}} {lower} < \operatorname{{rank}} {upper}{tail}",
+                comparison=Comparison(lower, upper, offset),
+            )
+        name = _MATRIX[label]
+        if label in ("iii", "vi"):
+            required = N - n if label == "iii" else N
+            return self._rank_condition(
+                label,
+                name,
+                required,
+                f"rank {name} < {required}",
+                rf"\operatorname{{rank}} {name} < {required}",
+            )
+        plain, latex = f"{name} is singular", rf"{name} \text{{ is singular}}"
+        if label in ("4", "5"):
+            plain, latex = f"det {name} = 0", rf"\det {name}(q) = 0"
+        height, width = getattr(self.equation, name).shape
+        if height != width:
+            latex = rf"\operatorname{{rank}} {name} < {N}"
+            return self._rank_condition(label, name, N, f"rank {name} < {N}", latex)
+        found = self._determinant(name)
+        if found is None:
+            return Condition(label, _TYPES[label], plain, latex, blocks=self.rank_blocks(name))
+        return Condition(
+            label,
+            _TYPES[label],
+            plain,
+            latex,
+            None if found.vanishes else tuple((self._factor(p, k),) for p, k in found.factors),
+            found.vanishes,
+            found.units,
+        )
+
+    def _factor(self, polynomial: Polynomial, multiplicity: int = 1) -> Factor:
+        return Factor(polynomial, multiplicity, self.names.recognise(polynomial))
+
+    def _determinant(self, name: str) -> FactoredDeterminant | None:
+        """The determinant, in the smaller of the forms that the full and the reduced matrix give.
+
+        None where both have too many terms to be written out.
+        """
+        choices: list[FactoredDeterminant] = []
+        for matrix in (self.matrix(name), getattr(self.equation, name)):
+            if choices and (not choices[0].factors or _largest_block(matrix) > LARGEST_DETERMINANT):
+                break
+            try:
+                choices.append(determinant_factors(matrix, self.certifier, MOST_TERMS))
+            except TooManyTerms:
+                continue
+        return min(choices, key=lambda choice: (not choice.vanishes, choice.size), default=None)
+
+    def _rank_condition(self, label: str, name: str, required: int, plain: str, latex: str) -> Condition:
+        """The locus where a rank is below `required`, as alternatives where that is full rank."""
+        apart = self.rank_blocks(name)
+        everywhere = apart.constant + sum(min(block.shape) for block in apart.blocks) < required
+        found: list[tuple[Polynomial, ...]] = []
+        losing = None if everywhere else apart.locus(required)
+        if losing and not all(is_small(block) for block in losing):
+            losing = None
+        for block in losing or ():
+            minors = minor_factors(block, self.certifier)
+            if minors is None:
+                continue
+            everywhere = everywhere or not minors
+            choices = alternatives(minors, self.certifier)
+            found += [tuple(prod(f, start=block.ring.one) for f in minors)] if choices is None else choices
+        decided = losing is not None and not everywhere
+        return Condition(
+            label,
+            _TYPES[label],
+            plain,
+            latex,
+            tuple(tuple(self._factor(p) for p in a) for a in _minimal(found)) if decided else None,
+            everywhere,
+            blocks=apart,
+        )
+
+
+def _minimal(found: list[tuple[Polynomial, ...]]) -> list[tuple[Polynomial, ...]]:
+    """Without those that have all the polynomials of another."""
+    distinct = dict.fromkeys(found)
+    return [a for a in distinct if not any(set(b) < set(a) for b in distinct)]
+
+
+def _largest_block(matrix: PolynomialMatrix) -> int:
+    """The size of the largest diagonal block of the block triangular form."""
+    return max((len(rows) for rows, _ in block_triangular(matrix).square), default=0)
+
+
+def conditions(equation: VelocityEquation, reduction: Reduction | None = None) -> Conditions:
+    """The conditions of a velocity equation; each is worked out when it is asked for.
+
+    reduction: that of section 4.2, where it is at hand.
+
+    >>> from singsym.kinematics.velocity import velocity_equation
+    >>> from singsym.mechanism import load
+    >>> print(conditions(velocity_equation(load("fourbar")))["vii"])
+    (vii) L_I is singular: RO or RPM, II or IIM
+      det[S_B S_C S_D] = -By*Cx + Bx*Cy + 4*By - 4*Cy  (B, C, D collinear)
+    """
+    return Conditions(equation, reduction or reduce(equation))

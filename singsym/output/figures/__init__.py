@@ -1,0 +1,1 @@
+"""Figures: mechanisms in their configurations with null motions, and singularity curves."""

@@ -1,0 +1,177 @@
+"""Pictures of mechanisms, of their singular configurations with null motions, of loci and of strata.
+
+Source: Figs 1-12 of Zlatanov, Fenton, Benhabib (1998).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from textwrap import wrap
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from singsym.classes.taxonomy.types import Defects, SingularityType
+from singsym.kinematics.velocity import VelocityEquation
+from singsym.mechanism.model import JointRate, Mechanism, Space
+from singsym.output.figures.style import Picture
+
+if TYPE_CHECKING:
+    from singsym.classes.configuration.null_motions import Motion
+    from singsym.classes.result import Classification, ClassResult
+    from singsym.output.figures.scene import Scene, Stage
+    from singsym.output.figures.style import Floats, Velocities
+
+
+def plot_mechanism(
+    mechanism: Mechanism,
+    coordinates: Mapping[str, str | float] | None = None,
+    *,
+    equation: VelocityEquation | None = None,
+    seed: int = 0,
+) -> Picture:
+    """A mechanism drawn at a configuration.
+
+    coordinates: the configuration variables by name (as in `Configuration.coordinates`); None: some
+        configuration, found numerically from `seed`.
+    Raises `ValueError` where coordinates are missing or no configuration was found.
+
+    >>> from singsym.mechanism import load
+    >>> plot_mechanism(load("fourbar")).title
+    'Four-bar linkage, crank-rocker'
+    """
+    from singsym.output.figures.scene import Stage
+
+    stage = Stage.of(mechanism, equation)
+    point = stage.sample(seed) if coordinates is None else stage.vector(coordinates)
+    title = mechanism.title or mechanism.name
+    return _drawn(stage, point, (), title, f"{title}, {_words(mechanism)}")
+
+
+def plot_class(
+    classification: Classification, result: ClassResult | SingularityType, witness: int = 0
+) -> Picture:
+    """A class at one of its certified configurations, with its null motions as arrows.
+
+    Raises `ValueError` where the class has no such configuration, or no mechanism was given.
+    """
+    from singsym.output.figures.motions import drawn_motions, motions_at
+
+    stage = _stage(classification)
+    found = classification.of(result) if isinstance(result, SingularityType) else result
+    shown = [(w, piece) for piece in found.pieces for w in piece.witnesses]
+    if witness >= len(shown):
+        raise ValueError(
+            f"class {found.singularity_class}: {len(shown)} configurations known, no number {witness + 1}"
+        )
+    configuration, piece = shown[witness]
+    point = stage.vector(configuration.coordinates)
+    motions = drawn_motions(motions_at(stage.equation, point, piece.defects))
+    title = f"Class {found.singularity_class.number} ({found.singularity_class.name})"
+    return _drawn(stage, point, motions, title, _class_words(stage, title, motions))
+
+
+def plot_configuration(
+    mechanism: Mechanism,
+    coordinates: Mapping[str, str | float],
+    defects: Defects,
+    *,
+    equation: VelocityEquation | None = None,
+) -> Picture:
+    """A mechanism at a configuration with these rank defects, its null motions as arrows."""
+    from singsym.output.figures.motions import drawn_motions, motions_at
+    from singsym.output.figures.scene import Stage
+
+    stage = Stage.of(mechanism, equation)
+    point = stage.vector(coordinates)
+    motions = drawn_motions(motions_at(stage.equation, point, defects))
+    title = str(defects.types)
+    return _drawn(stage, point, motions, title, _class_words(stage, title, motions))
+
+
+def _stage(classification: Classification) -> Stage:
+    from singsym.output.figures.scene import Stage
+
+    if classification.mechanism is None:
+        raise ValueError("equations were given without a mechanism: there is nothing to draw")
+    return Stage.of(classification.mechanism, classification.equation)
+
+
+def _drawn(stage: Stage, point: Floats, motions: Sequence[Motion], title: str, description: str) -> Picture:
+    from singsym.output.figures.style import INK, canvas
+
+    scene = stage.scene(point)
+    moving: list[tuple[Motion, Velocities]] = [(m, stage.velocities(point, m.rates)) for m in motions]
+    if scene.space is Space.PLANAR:
+        from singsym.output.figures.planar import draw_planar as draw
+    else:
+        from singsym.output.figures.spatial import draw_spatial as draw
+        from singsym.output.figures.view import seen, velocities_seen, viewpoint
+
+        view = viewpoint(scene)
+        scene = seen(scene, view)
+        moving = [(m, velocities_seen(v, view)) for m, v in moving]
+    figure = canvas(5.4, _height(scene))
+    draw(figure.add_subplot(), scene, moving)
+    figure.suptitle(_wrapped(title), fontsize=12, color=INK)
+    _write_below(figure, stage.mechanism, motions)
+    return Picture(figure, title, description)
+
+
+def _write_below(figure: Any, mechanism: Mechanism, motions: Sequence[Motion]) -> None:
+    """What the arrows are, and the inputs and the output in the colours that they are drawn in."""
+    from singsym.output.figures.motions import WORDS
+    from singsym.output.figures.style import INPUT, MOTION, OUTPUT
+
+    line = 0.22 / figure.get_figheight()
+    rows = len(motions) + 1
+    figure.get_layout_engine().set(rect=(0, line * rows, 1, 1 - line * rows))
+    for row, motion in enumerate(reversed(motions), 1):
+        words = f"→ {WORDS[motion.type]}"
+        figure.text(0.02, line * (row + 0.3), words, fontsize=9, color=MOTION[str(motion.type)])
+    inputs, outputs = _inputs(mechanism), _outputs(mechanism)
+    figure.text(0.02, 0.3 * line, inputs, fontsize=9, color=INPUT)
+    figure.text(0.98, 0.3 * line, outputs, fontsize=9, color=OUTPUT, ha="right")
+
+
+def _inputs(mechanism: Mechanism) -> str:
+    one = len(mechanism.inputs) == 1
+    return f"input{'' if one else 's'} {', '.join(mechanism.inputs)}"
+
+
+def _outputs(mechanism: Mechanism) -> str:
+    named = [o.column if isinstance(o, JointRate) else o.point for o in mechanism.outputs]
+    return f"output{'' if len(named) == 1 else 's'} {', '.join(named)}"
+
+
+def _height(scene: Scene) -> float:
+    """A height in inches that suits a scene on 5.4 inches of width, room for title and words kept."""
+    if scene.space is Space.SPHERICAL:
+        return 5.4
+    width, height = (float(x) for x in np.ptp(scene.all_points[:, :2], axis=0))
+    margin = 0.4 * scene.size
+    return min(5.4, 1.0 + 5.0 * (height + margin) / (width + margin))
+
+
+def _wrapped(title: str) -> str:
+    """A title in lines that fit the width of a figure."""
+    return "\n".join(wrap(title, 52))
+
+
+def _words(mechanism: Mechanism) -> str:
+    parts = f"{len(mechanism.links)} links and {len(mechanism.joints)} joints"
+    return f"{parts}, {_inputs(mechanism)}, {_outputs(mechanism)}"
+
+
+def _class_words(stage: Stage, title: str, motions: Sequence[Motion]) -> str:
+    from singsym.output.figures.motions import WORDS, rates_text
+
+    moving = "; ".join(f"{WORDS[m.type]} ({rates_text(m)})" for m in motions)
+    return f"{title} of {stage.mechanism.title or stage.mechanism.name}. Arrows: {moving}"
+
+
+def class_pictures(classification: Classification) -> Iterator[tuple[ClassResult, Picture]]:
+    """One picture for each class that has a configuration."""
+    for result in classification.classes:
+        if result.witnesses:
+            yield result, plot_class(classification, result)

@@ -1,0 +1,214 @@
+"""The same as plain data, for `--format json`: dicts, lists, text and numbers.
+
+Source: singsym's own; polynomials are text in the ring's variables.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from singsym.classes.configuration.at import Analysis
+    from singsym.classes.solve import Solution
+    from singsym.classes.taxonomy.types import Table
+    from singsym.conditions.conditions import Condition, Conditions
+    from singsym.kinematics.mobility import Mobility
+    from singsym.kinematics.velocity import VelocityEquation
+    from singsym.mechanism.model import Mechanism
+    from singsym.polynomials import PolynomialMatrix
+
+
+def mechanism_data(mechanism: Mechanism, equation: VelocityEquation) -> dict[str, Any]:
+    """A mechanism with its loop equations and velocity equation."""
+    from singsym.output.text import output_text
+
+    return {
+        "mechanism": mechanism.name,
+        "title": mechanism.title,
+        "source": mechanism.source,
+        "space": str(mechanism.space),
+        "inputs": list(mechanism.inputs),
+        "output": [output_text(o) for o in mechanism.outputs],
+        "joints": [
+            {"name": j.name, "kind": j.kind.value, "links": [j.first, j.second], "columns": list(j.columns)}
+            for j in mechanism.joints
+        ],
+        **equation_data(equation),
+    }
+
+
+def equation_data(equation: VelocityEquation) -> dict[str, Any]:
+    """N, n, the configuration space and L."""
+    space = equation.space
+    return {
+        "N": equation.N,
+        "n": equation.n,
+        "formulation": space.formulation,
+        "variables": list(space.variables),
+        "parameters": list(space.parameters),
+        "constants": {c.name: c.text for c in space.ring.constants},
+        "equations": [str(e) for e in space.equations],
+        "exclusions": [[str(e) for e in group] for group in space.exclusions],
+        "positive": [str(e) for e in space.positive],
+        "nonnegative": [str(e) for e in space.nonnegative],
+        "columns": [{"label": c.label, "role": c.role} for c in equation.columns],
+        "rows": list(equation.rows),
+        "L": _entries(equation.L),
+    }
+
+
+def _entries(matrix: PolynomialMatrix) -> list[list[str]]:
+    return [[str(e) for e in row] for row in matrix.rows]
+
+
+def conditions_data(name: str, conditions: Conditions) -> dict[str, Any]:
+    """The velocity equation, its reduction, and the conditions."""
+    reduced = conditions.reduction.equation
+    return {
+        "mechanism": name,
+        **equation_data(conditions.equation),
+        "reduction": {
+            "constant": conditions.reduction.constant,
+            "record": list(conditions.reduction.lines),
+            "columns": [c.label for c in reduced.columns],
+            "rows": list(reduced.rows),
+            "L": _entries(reduced.L),
+        },
+        "conditions": [_condition(c) for c in conditions],
+    }
+
+
+def _condition(condition: Condition) -> dict[str, Any]:
+    alternatives = condition.alternatives
+    return {
+        "label": condition.label,
+        "statement": condition.statement,
+        "types": condition.types,
+        "everywhere": condition.everywhere,
+        "alternatives": None
+        if alternatives is None
+        else [
+            [
+                {
+                    "polynomial": str(f.polynomial),
+                    "multiplicity": f.multiplicity,
+                    "name": f.name.quantity.text if f.name else "",
+                    "words": f.words,
+                    "latex": f.latex(),
+                }
+                for f in alternative
+            ]
+            for alternative in alternatives
+        ],
+        "units": [{"polynomial": str(u.polynomial), "reason": u.reason} for u in condition.units],
+    }
+
+
+def classes_data(table: Table, n: int) -> dict[str, Any]:
+    """Table 1 for mobility n."""
+    listed = [c for cells in table.cells for c in cells if c is not None]
+    return {
+        "n": n,
+        "rows": [list(r.names) for r in table.rows],
+        "columns": [list(c.names) for c in table.columns],
+        "cells": [[None if c is None else c.number for c in cells] for cells in table.cells],
+        "classes": [
+            {"number": c.number, "types": list(c.types.names), "words": c.words}
+            for c in sorted(listed, key=lambda c: c.number)
+        ],
+    }
+
+
+def mobility_data(name: str, equation: VelocityEquation, found: Mobility) -> dict[str, Any]:
+    """Generic ranks at random configurations, and what they contradict."""
+    return {
+        "mechanism": name,
+        "N": equation.N,
+        "n": equation.n,
+        "ranks": found.ranks,
+        "samples": found.samples,
+        "regular": found.regular,
+        "problems": list(found.messages),
+    }
+
+
+def solution_data(name: str, solutions: Iterable[Solution]) -> dict[str, Any]:
+    """The solution sets of conditions."""
+    return {
+        "mechanism": name,
+        "solutions": [
+            {
+                "condition": s.condition.label,
+                "statement": s.condition.statement,
+                "verdict": str(s.verdict.answer),
+                **s.extent.as_json(),
+                "pieces": [
+                    {
+                        "equations": [str(p) for p in piece.path],
+                        "basis": [str(p) for p in piece.basis],
+                        "exclusions": [[str(p) for p in group] for group in piece.exclusions],
+                        "verdict": str(piece.verdict.answer),
+                        "certainty": str(piece.verdict.certainty),
+                        **piece.extent.as_json(),
+                        "points": piece.points,
+                        "witnesses": [w.as_json() for w in piece.witnesses],
+                    }
+                    for piece in s.pieces
+                ],
+                "undecided": list(s.doubts),
+            }
+            for s in solutions
+        ],
+    }
+
+
+def analysis_data(name: str, found: Analysis) -> dict[str, Any]:
+    """Everything about one configuration."""
+    located = found.located
+    return {
+        "mechanism": name,
+        "N": found.equation.N,
+        "n": found.equation.n,
+        "exact": found.exact,
+        "variables": {k: _number(x, found.digits) for k, x in found.values.items()},
+        "points": {k: [_number(x, found.digits) for x in place] for k, place in found.points.items()},
+        "joints": {k: _number(x, found.digits) for k, x in found.joints.items()},
+        "residual": None
+        if located is None
+        else {"before": located.before, "after": located.after, "moved": located.moved},
+        "threshold": found.threshold,
+        "length": found.length,
+        "ranks": found.ranks,
+        "matrices": {
+            key: {
+                "rank": m.rank,
+                "regular": m.full,
+                "singular_values": list(m.singular_values),
+                "distance": _finite(m.distance),
+                "gap": _finite(m.gap),
+            }
+            for key, m in found.matrices.items()
+        },
+        **found.defects._asdict(),
+        "types": list(found.types.names),
+        "class": found.singularity_class.number if found.singularity_class else None,
+        "motions": [
+            {"type": m.type.name, "restriction": m.restriction, "rates": dict(m.rates)} for m in found.motions
+        ],
+        "remarks": list(found.remarks),
+        "undecided": found.undecided or None,
+    }
+
+
+def _finite(value: float) -> float | None:
+    return None if value == float("inf") else value
+
+
+def _number(value: Any, digits: int) -> float | str:
+    """A float as it is, an mpmath number as text with its digits."""
+    if isinstance(value, (int, float)):
+        return float(value)
+    import mpmath
+
+    return str(mpmath.nstr(value, digits))

@@ -1,0 +1,1 @@
+"""Numerical real points: Gauss-Newton from random starts.  They find; they prove nothing."""

@@ -1,0 +1,167 @@
+"""Real points known by a box that is proven to hold exactly one solution of a square system.
+
+Source: Krawczyk, Computing 4 (1969) 187-201.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, fields, replace
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from flint import arb, arb_mat
+
+from singsym.effort.budget import Undecided
+from singsym.polynomials import Polynomial, Ring
+from singsym.varieties.real.points.intervals import (
+    at_precision,
+    ball,
+    evaluate,
+    exact_bounds,
+    jacobian,
+    krawczyk,
+    sign_on_box,
+)
+
+_MOST_BITS = 4096
+
+
+@dataclass(frozen=True)
+class BoxPoint:
+    """The only solution of `equations` in a box, with some coordinates at rationals.
+
+    middles: rationals for all names, in order; unknowns: the names that the equations determine; the box of
+    these is middle +- radius.  Signs are decided where they are not zero, and for the equations themselves.
+    """
+
+    ring: Ring
+    equations: tuple[Polynomial, ...]
+    unknowns: tuple[str, ...]
+    middles: tuple[Fraction, ...]
+    radius_bound: Fraction
+    bits: int = 64
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {f.name: getattr(self, f.name) for f in fields(self)}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+
+    @cached_property
+    def box(self) -> tuple[arb, ...]:
+        """Balls that hold the coordinates, in the order of the ring's names."""
+        with at_precision(self.bits + 64):
+            widths = [self.radius_bound if n in self.unknowns else Fraction(0) for n in self.ring.names]
+            return tuple(ball(m) + arb(0, ball(w).upper()) for m, w in zip(self.middles, widths, strict=True))
+
+    def reflect(self, names: Collection[str]) -> BoxPoint:
+        """The point with the signs of these coordinates changed, a solution of the equations so changed."""
+        equations = tuple(p.reflect(names) for p in self.equations)
+        pairs = zip(self.ring.names, self.middles, strict=True)
+        return replace(self, equations=equations, middles=tuple(-m if n in names else m for n, m in pairs))
+
+    def refine(self, bits: int) -> BoxPoint:
+        """The same point in a box of radius 2^-bits; raises `Undecided` where it cannot be had."""
+        if bits <= self.bits:
+            return self
+        if bits not in self._finer:
+            self._finer[bits] = _sharpened(self.ring, self.equations, self.unknowns, self.middles, bits)
+        finer = self._finer[bits]
+        if finer is None:
+            raise Undecided(f"the Krawczyk test fails at {bits} bits")
+        return finer
+
+    @cached_property
+    def _finer(self) -> dict[int, BoxPoint | None]:
+        return {}
+
+    @property
+    def radius(self) -> float:
+        """A bound of the distance of each coordinate from its middle."""
+        return float(self.radius_bound)
+
+    @cached_property
+    def floats(self) -> tuple[float, ...]:
+        """The coordinates in double precision."""
+        return tuple(float(m) for m in self.middles)
+
+    def __getitem__(self, name: str) -> arb:
+        """The ball of one coordinate."""
+        return self.box[self.ring.index(name)]
+
+    def decimals(self, digits: int = 12) -> dict[str, str]:
+        """The coordinates by name to so many digits."""
+        point = self.refine(int(3.33 * digits) + 16)
+        return {
+            n: str(b.str(digits, radius=False, more=True))
+            for n, b in zip(self.ring.names, point.box, strict=True)
+        }
+
+    def sign(self, polynomial: Polynomial) -> int:
+        """The sign at the point; raises `Undecided` where it seems to be zero and no equation says so."""
+        if polynomial.is_zero or polynomial in self.equations:
+            return 0
+        bits = self.bits
+        while bits <= _MOST_BITS:
+            box = self.refine(bits).box
+            with at_precision(bits + 64):
+                sign = sign_on_box(polynomial, box)
+            if sign:
+                return sign
+            bits *= 2
+        raise Undecided(f"the sign of {polynomial} at a boxed point: zero up to {_MOST_BITS} bits")
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{name}={value}" for name, value in self.decimals(6).items())
+        return f"BoxPoint({values})"
+
+
+def boxed_point(
+    ring: Ring, equations: Sequence[Polynomial], values: Mapping[str, Fraction], near: Sequence[float]
+) -> BoxPoint | None:
+    """A solution near a numerical one, with these coordinates at rationals, by a Krawczyk test, or `None`.
+
+    As many equations as names without a value are expected.
+
+    >>> R = Ring(("x", "y"))
+    >>> x, y = R.gens
+    >>> boxed_point(R, [x**2 + y**2 - 2], {"x": Fraction(1)}, (1.0, 0.9))
+    BoxPoint(x=1.00000, y=1.00000)
+    """
+    unknowns = tuple(n for n in ring.names if n not in values)
+    middles = tuple(values.get(n, Fraction(x)) for n, x in zip(ring.names, near, strict=True))
+    return _sharpened(ring, tuple(equations), unknowns, middles, 64)
+
+
+def _sharpened(
+    ring: Ring,
+    equations: tuple[Polynomial, ...],
+    unknowns: tuple[str, ...],
+    middles: tuple[Fraction, ...],
+    bits: int,
+) -> BoxPoint | None:
+    """Newton steps at high precision, then the Krawczyk test on a small box."""
+    places = [ring.index(n) for n in unknowns]
+    derivatives = jacobian(equations, unknowns)
+    with at_precision(bits + 64):
+        point = [ball(m) for m in middles]
+        # the next step would be shorter than the square of this one, up to a factor
+        least = arb(2) ** (-(bits // 2) - 16)
+        for _ in range(bits.bit_length() + 8):
+            slopes = arb_mat([[evaluate(d, point) if d else arb(0) for d in row] for row in derivatives])
+            values = arb_mat([[evaluate(f, point)] for f in equations])
+            try:
+                step = slopes.solve(values)
+            except ZeroDivisionError:
+                return None
+            for i, k in enumerate(places):
+                point[k] = arb((point[k] - step[i, 0]).mid())
+            if all(abs(step[i, 0]) < least for i in range(len(places))):
+                break
+        radius = Fraction(1, 2**bits)
+        if krawczyk(equations, unknowns, point, radius) is None:
+            return None
+        new = tuple(exact_bounds(point[k])[0] if k in places else middles[k] for k in range(len(ring.names)))
+    return BoxPoint(ring, equations, unknowns, new, radius, bits)

@@ -1,0 +1,120 @@
+"""Rank strata on small matrices whose ranks are known by hand."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from singsym.classes.strata.block_rank import BlockRank, block_rank
+from singsym.classes.strata.ground import Ground, NotEvident
+from singsym.classes.strata.patches import Patch
+from singsym.classes.strata.ranks import RankProblem, ranked, relevant
+from singsym.classes.taxonomy.types import Defects, SingularityType, feasible_defects
+from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
+from singsym.varieties.decomposition import decompose
+from singsym.varieties.real.numerical.sampling import numerical_points
+from singsym.varieties.real.points.intervals import pivots
+from singsym.varieties.real.system import RealSystem
+
+R = Ring(("x", "y"))
+x, y = R.gens
+
+
+def ground(*equations: Polynomial) -> Ground:
+    (component,) = decompose(equations, ring=R)
+    points = numerical_points(RealSystem(R, equations))
+    return Ground(Patch(R, {}, component.generators), points, component)
+
+
+def rank(matrix: PolynomialMatrix, where: Ground) -> BlockRank:
+    return block_rank(matrix, where, where.certifier(RealSystem(R, ()), ()))
+
+
+def test_rank_of_a_matrix_on_the_plane_and_on_a_line() -> None:
+    """diag(x, y): rank 2 off xy = 0; on y = 0 rank 1 off x = 0."""
+    matrix = PolynomialMatrix.of(R, [[x, 0], [0, y]])
+    assert rank(matrix, ground()).rank == 2
+    assert rank(matrix, ground()).minors == (x * y,)
+    assert rank(matrix, ground(y)).rank == 1
+    assert rank(matrix, ground(y)).minors == (x,)
+
+
+def test_rank_that_never_drops_needs_no_minors() -> None:
+    matrix = PolynomialMatrix.of(R, [[1, x], [y, 0]])
+    assert rank(matrix, ground(x)).minors == ()
+    assert rank(PolynomialMatrix.of(R, [[0, 0]]), ground()).rank == 0
+
+
+def test_rank_on_a_reducible_set_that_is_not_known_to_be_prime() -> None:
+    """On x y = 0, taken whole, the matrix (x) vanishes on one of two lines: its rank is 1 off that line."""
+    found = rank(PolynomialMatrix.of(R, [[x]]), ground(x**2 - 2 * y**2))
+    assert (found.rank, found.minors) == (1, (x,))
+
+
+@given(st.lists(st.lists(st.integers(-2, 2), min_size=3, max_size=3), min_size=2, max_size=4))
+@settings(max_examples=50, deadline=None)
+def test_pivots_have_numpys_rank(rows: list[list[int]]) -> None:
+    matrix = [[float(e) for e in row] for row in rows]
+    chosen = pivots(matrix)
+    expected = np.linalg.matrix_rank(np.array(matrix))
+    assert len(chosen[0]) == len(chosen[1]) == expected
+    if expected:
+        assert abs(np.linalg.det(np.array(matrix)[np.ix_(*chosen)])) > 1e-9
+
+
+def row_problem() -> RankProblem:
+    """N = 2, n = 1: L is a unit and the row (x y), L_I the row (x), L_O (y), L_p nothing."""
+    unit = PolynomialMatrix.of(R, [[1, 0, 0], [0, x, y]])
+    columns = {"L": [0, 1, 2], "L_I": [0, 1], "L_O": [0, 2], "L_p": [0]}
+    return RankProblem({name: unit.select(columns=c) for name, c in columns.items()}, 0, 2, 1)
+
+
+def test_ranks_on_the_plane_and_on_a_line() -> None:
+    """Off the axes nothing is singular; L_O is where y = 0, and at the origin both are and so is L."""
+    plane = ranked(row_problem(), ground(), RealSystem(R, ()))
+    assert plane.stratum is not None
+    assert plane.stratum.defects == Defects(0, 0, 0, 0)
+    assert set(plane.loci) == {(x,), (y,)}
+    line = ranked(row_problem(), ground(y), RealSystem(R, ()))
+    assert line.stratum is not None
+    assert line.stratum.defects == Defects(0, 0, 0, 1)
+    assert line.loci == {(x,): {"L": 1}}
+    origin = ranked(row_problem(), ground(x, y), RealSystem(R, ()))
+    assert origin.stratum is not None
+    assert (origin.stratum.defects, origin.loci) == (Defects(1, 0, 1, 1), {})
+
+
+def test_what_is_known_is_not_written_again() -> None:
+    """With full rank of L and L_p no stratum where its types are among those known."""
+    known = (SingularityType(0), SingularityType.RO | SingularityType.II)
+    assert ranked(row_problem(), ground(), RealSystem(R, ()), evident=known).stratum is None
+
+
+def test_a_minor_that_only_seems_to_vanish_is_not_evident() -> None:
+    """It vanishes on the patch, but is not in the ideal of its equation."""
+    one = x**2 - 2 * y**2
+    where = Ground(Patch(R, {}, (one**2,)), ((2**0.5, 1.0),))
+    with pytest.raises(NotEvident):
+        rank(PolynomialMatrix.of(R, [[one]]), where)
+
+
+def test_a_combination_of_equations_vanishes() -> None:
+    """The point: y^2 = sqrt 2, x = y^3."""
+    one, two = x**2 - 2 * y**2, y**3 - x
+    where = Ground(Patch(R, {}, (one, two)), ((2**0.75, 2**0.25),))
+    assert rank(PolynomialMatrix.of(R, [[y * one + x * two]]), where).rank == 0
+
+
+@pytest.mark.parametrize("n", [1, 2, 3])
+def test_matrices_left_out_cannot_change_the_types(n: int) -> None:
+    """Where only matrices that are not relevant lose rank, the types stay: over all feasible defects."""
+    feasible = list(feasible_defects(n))
+    place = {"L": "delta", "L_p": "p", "L_I": "k_I", "L_O": "k_O"}
+    for here in feasible:
+        watched = [place[name] for name in relevant(here)]
+        for there in feasible:
+            grown = all(b >= a for a, b in zip(here, there, strict=True))
+            if grown and all(getattr(here, f) == getattr(there, f) for f in watched):
+                assert here.types == there.types

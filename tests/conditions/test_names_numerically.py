@@ -1,0 +1,169 @@
+"""What is printed on both sides of "=" for a named factor, at configurations found by Newton's method.
+
+Source: independent of the recognition: the left side is read as it is printed and worked out by numpy from
+the places of the named points and axes, the right side by SymPy from the printed text.
+"""
+
+import importlib.util
+import itertools
+import re
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import pytest
+import sympy
+from sympy.parsing.sympy_parser import parse_expr
+
+from singsym.conditions.conditions import Factor, conditions, symbol_latex
+from singsym.conditions.named_quantities import PointNames
+from singsym.kinematics.nonzero import Certifier
+from singsym.kinematics.placement import ConfigurationSpace
+from singsym.kinematics.velocity import velocity_equation
+from singsym.mechanism import load
+from singsym.mechanism.library import names
+from singsym.polynomials import AlgebraicConstant, Ring
+
+_spec = importlib.util.spec_from_file_location(
+    "numerically", Path(__file__).with_name("test_conditions_numerically.py")
+)
+assert _spec is not None
+assert _spec.loader is not None
+numerically = importlib.util.module_from_spec(_spec)
+_spec.loader.exec_module(numerically)
+
+Places = Mapping[str, np.ndarray]
+
+
+def vector(text: str, points: Places, axes: Places) -> np.ndarray:
+    """An axis, or the vector from one point to another, their names side by side."""
+    if text in axes:
+        return axes[text]
+    (pair,) = ((p, q) for p in points for q in points if p + q == text and p != q)
+    return points[pair[1]] - points[pair[0]]
+
+
+def named(text: str, points: Places, axes: Places) -> float:
+    """A determinant or product from its printed name; a length without its sign."""
+    if found := re.fullmatch(r"±\|(\w+) x (\w+)\|", text):
+        return float(np.linalg.norm(np.cross(*(vector(t, points, axes) for t in found.groups()))))
+    if found := re.fullmatch(r"(\w+)\.(\w+)", text):
+        return float(np.dot(*(vector(t, points, axes) for t in found.groups())))
+    found = re.fullmatch(r"det\[(.*)\]", text)
+    assert found is not None, text
+    inside = found[1].split()
+    if all(name.startswith("S_") for name in inside):
+        places = [points[name.removeprefix("S_")] for name in inside]
+        rows = [[1, y, -x] for x, y in places]
+    elif len(inside) == 4:
+        rows = [[1, *points[name]] for name in inside]
+    else:
+        rows = [axes[name] for name in inside]
+    return float(np.linalg.det(np.array(rows)))
+
+
+def from_latex(text: str, ring: Ring) -> str:
+    """The LaTeX of a sum of products as Python, the variables by their names."""
+    for place, name in sorted(enumerate(ring.names), key=lambda pair: -len(symbol_latex(pair[1]))):
+        text = re.sub(rf"(?<![\\\w]){re.escape(symbol_latex(name))}(?!\w)", f"v{place}", text)
+    text = re.sub(r"\\left|\\right|\\,", " ", text)
+    text = re.sub(r"\^\{(\d+)\}", r"**\1", text)
+    text = re.sub(r"\\sqrt\{(\d+)\}", r"root\1", text)
+    while r"\frac" in text:
+        text = re.sub(r"\\frac\{([^{}]*)\}\{([^{}]*)\}", r"((\1)/(\2))", text)
+    text = re.sub(r"(?<=[\w)])\s*(?=\()|(?<=[\w)])\s+(?=\w)|(?<=\))(?=\w)", "*", text)
+    text = re.sub(r"root(\d+)", r"sqrt(\1)", text)
+    return re.sub(r"v(\d+)", lambda m: f"({ring.names[int(m[1])]})", text)
+
+
+def both_sides(factor: Factor, point: list[float], space: ConfigurationSpace) -> list[float]:
+    """The named quantity, the right side of the text, the right side of the LaTeX."""
+    assert factor.name is not None
+    left, _, right = factor.text().partition(" = ")
+    points, axes = (
+        {name: np.array([float(x.evaluate(point)) for x in place]) for name, place in places.items()}
+        for places in (space.points, space.directions)
+    )
+    ring = space.ring
+    symbols = {name: sympy.Symbol(name) for name in ring.names}
+    values = {symbols[name]: value for name, value in zip(ring.names, point, strict=True)}
+    latex = factor.latex(10**6).partition(" = ")[2]
+    shown = [right.replace("^", "**"), from_latex(latex, ring)]
+    return [
+        named(left, points, axes),
+        *(float(parse_expr(text, local_dict=dict(symbols)).xreplace(values)) for text in shown),
+    ]
+
+
+def root(constant: AlgebraicConstant) -> float:
+    """The root of a constant's minimal polynomial that is in its interval."""
+    roots = np.roots([float(x) for x in reversed(constant.minimal)])
+    middle = float(constant.low + constant.high) / 2
+    return float(min(roots, key=lambda x: abs(x - middle)).real)
+
+
+def check(factor: Factor, point: list[float], space: ConfigurationSpace) -> None:
+    left, *right = both_sides(factor, point, space)
+    if factor.text().startswith("±"):
+        right = [abs(value) for value in right]
+    assert right == pytest.approx([left, left], rel=1e-8, abs=1e-9), factor.text()
+
+
+@pytest.mark.parametrize("name", sorted(set(names()) - numerically.LEFT_OUT - {"zlatanov-hybrid-3-2"}))
+def test_equalities_hold_at_random_configurations(name: str) -> None:
+    equation = velocity_equation(load(name))
+    space = equation.space
+    found = {
+        factor.polynomial: factor
+        for condition in conditions(equation)
+        for alternative in condition.alternatives or ()
+        for factor in alternative
+        if factor.name is not None
+    }
+    rng = np.random.default_rng(11)
+    constants = {space.ring.index(c.name): root(c) for c in space.ring.constants}
+    loops = [e for e in space.equations if e not in space.ring.relations]
+    tries = (
+        numerically.newton(loops, constants, rng) if loops else list(rng.normal(size=len(space.ring.names)))
+        for _ in range(40)
+    )
+    points = list(itertools.islice((point for point in tries if point is not None), 3))
+    assert len(points) == 3
+    for point in points:
+        for factor in found.values():
+            check(factor, point, space)
+
+
+def test_the_sign_and_the_factor_of_a_small_determinant() -> None:
+    """A = (0, 0), B = (2, 0), C = (x, y): det[S_A S_B S_C] has the rows (1, 0, 0), (1, 0, -2), (1, y, -x),
+    and is twice the triangle's area 1/2 2 y with its sign: 2 y."""
+    ring = Ring(("x", "y"))
+    x, y = ring.gens
+    points = {"A": (ring.zero, ring.zero), "B": (ring.constant(2), ring.zero), "C": (x, y)}
+    found = PointNames(Certifier(ConfigurationSpace(ring, (), points=points)))
+    for polynomial, shown in ((y, "2*y"), (-3 * y, "2*y")):
+        factor = Factor(polynomial, name=found.recognise(polynomial))
+        assert str(factor) == f"det[S_A S_B S_C] = {shown}  (A, B, C collinear)"
+
+
+def test_a_length_that_is_an_irrational_multiple() -> None:
+    """AB = (1, 1, 0) and AC = (c, c, s): AB x AC = (s, -s, 0), of length sqrt(2) |s|."""
+    ring = Ring(("c", "s"))
+    c, s = ring.gens
+    o, one = ring.zero, ring.one
+    points = {"A": (o, o, o), "B": (one, one, o), "C": (c, c, s)}
+    space = ConfigurationSpace(ring, (2 * c**2 + s**2 - 1,), points=points)
+    factor = Factor(s, name=PointNames(Certifier(space)).recognise(s))
+    assert factor.text() == "±|AB x AC| = sqrt(2)*s"
+    check(factor, [0.48, 0.7341662], space)
+
+
+def test_a_factor_that_is_not_constant() -> None:
+    """A = (0, 0), B = (x, 0), C = (1, y) with x taken out: the determinant x y vanishes with y."""
+    ring = Ring(("x", "y"))
+    x, y = ring.gens
+    points = {"A": (ring.zero, ring.zero), "B": (x, ring.zero), "C": (ring.one, y + 2)}
+    space = ConfigurationSpace(ring, (), exclusions=((x,),), points=points)
+    factor = Factor(3 * y + 6, name=PointNames(Certifier(space)).recognise(3 * y + 6))
+    assert factor.text() == "det[S_A S_B S_C] = 1/3*x*(3*y + 6)"
+    check(factor, [0.3, -1.7], space)
