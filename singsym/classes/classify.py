@@ -6,7 +6,7 @@ Source: Zlatanov, Fenton, Benhabib (1998), section 3: conditions (4), (5) and th
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from concurrent.futures import Executor
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
@@ -23,9 +23,11 @@ from singsym.classes.conclusions import (
     with_numbers,
 )
 from singsym.classes.configuration_space import configuration_space
+from singsym.classes.realisation.certified_configuration import Names
 from singsym.classes.realisation.curve_components import Counted, CurveTask, count
 from singsym.classes.realisation.local_coordinates import local_coordinates
-from singsym.classes.realisation.realisation import Names, Realised, RealTask, realise
+from singsym.classes.realisation.looks import bounded_by, is_open, known_dimensions, merged
+from singsym.classes.realisation.realisation import Realised, RealTask, realise
 from singsym.classes.result import Classification, Locus, Piece
 from singsym.classes.running.disk_cache import user_cache
 from singsym.classes.running.processes import processes
@@ -34,7 +36,7 @@ from singsym.classes.strata.branches import Branch, Found
 from singsym.classes.strata.ranks import RankProblem, Stratum
 from singsym.classes.strata.reflections import image, reflections
 from singsym.classes.strata.search import Exploration, Loci, SingularLoci, search
-from singsym.classes.taxonomy.types import Defects, SingularityType
+from singsym.classes.taxonomy.types import Defects
 from singsym.classes.unit_border import Border
 from singsym.conditions.conditions import Conditions, Factor, conditions
 from singsym.effort import chance
@@ -44,7 +46,7 @@ from singsym.elimination import engines
 from singsym.kinematics.reduction import reduce
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import Mechanism
-from singsym.varieties.real.dimension.extent import Extent, union
+from singsym.varieties.real.dimension.extent import union
 from singsym.varieties.real.system import RealSystem
 from singsym.varieties.unit_circles import Pair, unit_circles
 
@@ -52,6 +54,8 @@ LOCUS_SECONDS = 10.0
 """So long a locus is looked at of which a stratum is known."""
 BOUND_SECONDS = 6.0
 """So long a bound is looked for where only a larger dimension would matter."""
+SHARES = (0.5, 0.8, 1.0)
+"""So much of all time is used up when the search, what is real of the strata, and everything ends."""
 FIRST_SECONDS, SECOND_SECONDS = 1.0, 5.0
 """So long each stratum is looked at before it is known whether more time is worth while."""
 
@@ -61,7 +65,8 @@ class Limits:
     """What a classification may use, None without limit.
 
     seconds, memory_mb: of work (see `processor_time`) and memory for each task (a branch, a stratum, a
-    curve); total: seconds of time for the search for strata.
+    curve); total: seconds of time after which no task is begun any more: half of it for the search for
+    strata, and the most of the rest for what is real of them.
     """
 
     seconds: float | None = 60.0
@@ -139,6 +144,15 @@ def classify_inside(
         return work.classification(started)
 
 
+@dataclass(frozen=True)
+class Ends:
+    """Budgets that end when the search, what is real of the strata, and everything has to end."""
+
+    search: Budget
+    pieces: Budget
+    all: Budget
+
+
 @dataclass
 class _Work:
     """One classification under way."""
@@ -147,6 +161,12 @@ class _Work:
     conditions: Conditions
     runner: Runner
     limits: Limits
+
+    @cached_property
+    def ends(self) -> Ends:
+        """When each part of the work has to end, from the first look at this."""
+        total = self.limits.total
+        return Ends(*(Budget(None if total is None else share * total) for share in SHARES))
 
     @property
     def equation(self) -> VelocityEquation:
@@ -172,6 +192,7 @@ class _Work:
         return RankProblem(matrices, self.conditions.reduction.constant, self.equation.N, self.equation.n)
 
     def classification(self, started: float) -> Classification:
+        search_ends = self.ends.search
         problem = self.problem()
         root = Branch(
             problem,
@@ -181,7 +202,7 @@ class _Work:
             seconds=self.limits.seconds,
             memory_mb=self.limits.memory_mb,
         )
-        explored = search(root, self.runner, self._singular_loci(), Budget(self.limits.total))
+        explored = search(root, self.runner, self._singular_loci(), search_ends)
         pieces = self._with_components(explored.found, self._pieces(explored.found))
         loci = self._loci(explored, pieces)
         classes = classes_of(explored, pieces, self.equation.n, self._counting)
@@ -207,7 +228,7 @@ class _Work:
         limits = self.limits
         tasks = [self._task(f, f.stratum.defects.delta) for f in found]
         first = [replace(task, seconds=limits.part(FIRST_SECONDS)) for task in tasks]
-        realised = self.runner.map(realise, first, "real points")
+        realised = self.runner.map(realise, first, "real points", self.ends.pieces)
         self._look_again(tasks, realised, limits.part(SECOND_SECONDS), "real points, second look")
         self._look_again(tasks, realised, limits.seconds, "real points, at length", most=1)
         return realised
@@ -242,12 +263,12 @@ class _Work:
         point where none is known.
         most: the largest known dimension of the classes of strata that are looked at.
         """
-        known = _dimensions(piece for part in realised for piece in part.pieces)
+        known = known_dimensions(piece for part in realised for piece in part.pieces)
         least = [min(known.get(p.defects.types, 0) for p in part.pieces) for part in realised]
         doubtful = [
             i
             for i, part in enumerate(realised)
-            if least[i] <= most and any(_open(p, known.get(p.defects.types)) for p in part.pieces)
+            if least[i] <= most and any(is_open(p, known.get(p.defects.types)) for p in part.pieces)
         ]
         doubtful.sort(key=lambda i: least[i])
         seen = [any(p.verdict.is_yes for p in part.pieces) for part in realised]
@@ -260,8 +281,8 @@ class _Work:
             )
             for i in doubtful
         ]
-        for i, part in zip(doubtful, self.runner.map(realise, again, stage), strict=True):
-            realised[i] = _merged(realised[i], part)
+        for i, part in zip(doubtful, self.runner.map(realise, again, stage, self.ends.pieces), strict=True):
+            realised[i] = merged(realised[i], part)
 
     def _singular_loci(self) -> SingularLoci | None:
         """The alternatives of (4), (5), (iii) and (vi), where they are known and not everything."""
@@ -299,11 +320,11 @@ class _Work:
             )
             for i in left
         ]
-        whole = dict(zip(left, self.runner.map(realise, tasks, "loci"), strict=True))
+        whole = dict(zip(left, self.runner.map(realise, tasks, "loci", self.ends.all), strict=True))
         found = []
         for i, piece in enumerate(known):
             if piece is None or not bounded[i]:
-                found.append(at_least(_within(whole[i].pieces[0], singular), piece))
+                found.append(at_least(bounded_by(whole[i].pieces[0], singular), piece))
             else:
                 found.append(replace(piece, extent=singular, points=None, components=None))
         curves = [i for i, piece in enumerate(found) if piece.dimension == 1 and self._counting]
@@ -329,13 +350,13 @@ class _Work:
         """The connected components of curves, closed up."""
         limits = self.limits
         limited = [replace(t, seconds=limits.seconds, memory_mb=limits.memory_mb) for t in tasks]
-        return self.runner.map(count, limited, "curves")
+        return self.runner.map(count, limited, "curves", self.ends.all)
 
     # -- classes -------------------------------------------------------------------------------------
 
     def _with_components(self, found: Sequence[Found], realised: Sequence[Realised]) -> list[Piece]:
         """All pieces; those of classes that are curves with their numbers of components."""
-        known = _dimensions(piece for part in realised for piece in part.pieces)
+        known = known_dimensions(piece for part in realised for piece in part.pieces)
         own = [
             i
             for i, part in enumerate(realised)
@@ -350,7 +371,8 @@ class _Work:
         parts = [with_numbers(part, counted.get(i)) for i, part in enumerate(realised)]
         points = [i for i in own if realised[i].pieces[0].dimension == 0]
         beside = [self._beside(found[i], [p for k in curves for p in realised[k].pieces]) for i in points]
-        for i, part in zip(points, self.runner.map(realise, beside, "points beside curves"), strict=True):
+        counted_points = self.runner.map(realise, beside, "points beside curves", self.ends.all)
+        for i, part in zip(points, counted_points, strict=True):
             numbers = [p.points for p in part.pieces if p.verdict.is_yes]
             number = (
                 None
@@ -373,48 +395,3 @@ class _Work:
         own = self.equation.space.exclusions
         exclusions = ((*own, *p.exclusions, *e) for p, e in zip(part.pieces, elsewhere, strict=True))
         return CurveTask(tuple(p.basis for p in part.pieces), tuple(exclusions))
-
-
-def _within(piece: Piece, extent: Extent) -> Piece:
-    """A part of a set with a bound, which is that of the part as well where no other is known."""
-    own = piece.extent
-    if own.at_most is None or own.at_most != extent.at_most:
-        return piece
-    return replace(piece, extent=replace(own, bounded=weakest(own.bounded, extent.bounded)))
-
-
-def _dimensions(pieces: Iterable[Piece]) -> dict[SingularityType, int]:
-    """The largest dimension of each class that a certified point shows."""
-    found: dict[SingularityType, int] = {}
-    for piece in pieces:
-        if piece.verdict.is_yes:
-            types = piece.defects.types
-            found[types] = max(piece.extent.at_least, found.get(types, 0))
-    return found
-
-
-def _merged(before: Realised, after: Realised) -> Realised:
-    """What two looks at a stratum say together: a point stays known where the second is for a bound only."""
-    decided = any(not p.verdict.is_undecided for p in after.pieces)
-    if decided or not any(p.verdict.is_yes for p in before.pieces):
-        return after
-    pairs = zip(before.pieces, after.pieces, strict=True)
-    return Realised(tuple(replace(p, extent=_with_bound(p.extent, q.extent)) for p, q in pairs))
-
-
-def _with_bound(extent: Extent, other: Extent) -> Extent:
-    """A dimension with the smaller of two bounds from above."""
-    known = [e for e in (extent, other) if e.at_most is not None]
-    best = min(known, key=lambda e: e.at_most or 0, default=extent)
-    return replace(extent, at_most=best.at_most, bounded=best.bounded, open=other.open or extent.open)
-
-
-def _open(piece: Piece, known: int | None) -> bool:
-    """Whether a longer look may change what is known of the class: parts, dimension, points, components."""
-    if piece.verdict.is_no:
-        return False
-    most = piece.extent.at_most
-    if known is None or most is None or most > known:
-        return True
-    uncounted = known == 0 and piece.points is None
-    return uncounted or piece.verdict.is_undecided

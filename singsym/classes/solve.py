@@ -12,7 +12,7 @@ from contextlib import ExitStack
 from dataclasses import dataclass, replace
 
 from singsym.classes.classify import Limits, classify_inside
-from singsym.classes.realisation.realisation import Names, configuration
+from singsym.classes.realisation.certified_configuration import Names, configuration
 from singsym.classes.result import Classification, Configuration, Equations, Piece
 from singsym.classes.running.disk_cache import user_cache
 from singsym.classes.running.processes import processes

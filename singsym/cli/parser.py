@@ -176,7 +176,7 @@ def _work(command: argparse.ArgumentParser) -> None:
         "--budget",
         type=_positive,
         metavar="SECONDS",
-        help="for the search, a tenth or 60 for each part (default: 1800); what takes longer is undecided",
+        help="of all work, a tenth or 60 for each part (default: 1800); what takes longer is undecided",
     )
     command.add_argument(
         "--workers", type=_at_least_one, default=_workers(), help="processes (default: %(default)s)"

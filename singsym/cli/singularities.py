@@ -134,7 +134,7 @@ def run_solve(chosen: argparse.Namespace) -> int:
 
 
 def _limits(chosen: argparse.Namespace) -> Limits:
-    """The budget for the search, a tenth of it at most for each part; the defaults without --budget."""
+    """The budget of all work, a tenth of it at most for each part; the defaults without --budget."""
     from singsym.classes.classify import Limits
 
     usual = Limits()

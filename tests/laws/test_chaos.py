@@ -65,7 +65,7 @@ CHOSEN = draw("chaos").sample(NAMES, min(len(NAMES), max(1, RUNS // EACH)))
 _FEW = SLOW.intersection(CHOSEN)
 MANY = -(-(RUNS - EACH * len(_FEW)) // (len(CHOSEN) - len(_FEW)))
 """Runs for each mechanism that is not slow."""
-WHOLE, HURRIED = Limits(seconds=20, total=120), Limits(seconds=2, total=8)
+WHOLE, HURRIED = Limits(seconds=20, total=120), Limits(seconds=1, total=5)
 
 
 def mechanism(name: str) -> Mechanism:

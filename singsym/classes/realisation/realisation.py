@@ -6,13 +6,12 @@ Hauenstein, Sottile, ACM Trans. Math. Softw. 38 (2012) 28.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from itertools import chain
 
-from flint import arb
-
+from singsym.classes.realisation.certified_configuration import Names, configuration
 from singsym.classes.realisation.dimension_bounds import (
     Bound,
     bound_above,
@@ -22,7 +21,7 @@ from singsym.classes.realisation.dimension_bounds import (
     points_off_exclusions,
 )
 from singsym.classes.realisation.local_coordinates import are_missed
-from singsym.classes.result import Configuration, Equations, Piece
+from singsym.classes.result import Equations, Piece
 from singsym.classes.strata.branches import Found
 from singsym.classes.strata.occurrence import is_proven_empty, restricted
 from singsym.classes.strata.patches import Patch, unsplit
@@ -30,7 +29,7 @@ from singsym.classes.strata.reflections import image
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Budget, Undecided
 from singsym.effort.verdict import Certainty, Verdict, certainties, weakest
-from singsym.kinematics.placement import Coordinates, JointValue
+from singsym.kinematics.placement import JointValue
 from singsym.varieties.real.dimension.extent import EMPTY, Extent
 from singsym.varieties.real.dimension.hyperplane_cuts import Cut, dimension_by_cuts
 from singsym.varieties.real.dimension.independent_coordinates import are_dependent
@@ -40,14 +39,11 @@ from singsym.varieties.real.points.boxed_point import BoxPoint
 from singsym.varieties.real.points.certified_point import Witness, find_witness
 from singsym.varieties.real.points.exact_point import RealPoint
 from singsym.varieties.real.points.finite_sets import NotZeroDimensional, real_points
-from singsym.varieties.real.points.intervals import at_precision, evaluate
 from singsym.varieties.real.proofs.critical_points import sample_points
 from singsym.varieties.real.proofs.vector_charts import Cartesian
 from singsym.varieties.real.system import RealSystem
 from singsym.varieties.unit_circles import Pair
 
-DIGITS = 24
-"""Of decimals inside, more than are reported, so that they can be turned to another unit."""
 SEARCHES = 300
 """Random starts in the search for a point of a set given by independent equations."""
 
@@ -57,16 +53,6 @@ INDEPENDENCE_SECONDS = 10.0
 """So long random values of each choice of coordinates are tried, to bound a dimension."""
 DIMENSION_SECONDS = 20.0
 """So long the dimension of a set that has a certified point is looked for."""
-
-_BITS = 80
-
-
-@dataclass(frozen=True)
-class Names:
-    """What a configuration is reported in: named points of space, and the joints' values."""
-
-    points: Mapping[str, Coordinates] = field(default_factory=dict)
-    joints: Mapping[str, JointValue] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -395,54 +381,3 @@ def _samples(system: RealSystem, away: Equations, borders: Equations) -> Iterato
     for k, border in enumerate(borders if found else ()):
         on_it = replace(system, equations=(*system.equations, border))
         yield from _samples(on_it, away, borders[k + 1 :])
-
-
-# -- configurations ----------------------------------------------------------------------------------
-
-
-def configuration(point: RealPoint | BoxPoint, names: Names) -> Configuration:
-    """A point as decimal strings of `DIGITS` digits, with a bound on their error.
-
-    Coordinates of the configuration space, of the named points, and joint values: angles in radians.
-    """
-    box = point.refine(_BITS).box
-    with at_precision(_BITS + 64):
-        coordinates = dict(zip(point.ring.names, box, strict=True))
-        points = {
-            f"{name}.{axis}": evaluate(value, box)
-            for name, place in names.points.items()
-            for axis, value in zip("xyz", place, strict=False)
-        }
-        joints = {}
-        for name, value in names.joints.items():
-            found = _joint(value, box)
-            if found is not None:
-                joints[name] = found
-        tables = [_decimals(table) for table in (coordinates, points, joints)]
-        radius = max((r for _, r in tables), default=0.0)
-    return Configuration(tables[0][0], tables[1][0], tables[2][0], f"{radius:.1e}")
-
-
-def _joint(value: JointValue, box: tuple[arb, ...]) -> arb | None:
-    if value.length is not None:
-        return evaluate(value.length, box)
-    if value.square is not None:
-        return evaluate(value.square, box).sqrt()
-    if value.cosine is not None and value.sine is not None:
-        sine, cosine = evaluate(value.sine, box), evaluate(value.cosine, box)
-        if cosine < 0 and sine.contains(0):
-            # atan2 jumps here between pi and -pi, and its ball would hold both
-            return arb.pi() + arb.atan2(-sine, -cosine)
-        return arb.atan2(sine, cosine)
-    return None
-
-
-def _decimals(table: Mapping[str, arb]) -> tuple[dict[str, str], float]:
-    """Rounded midpoints, and a bound on the distance of each from the exact value."""
-    shown: dict[str, str] = {}
-    worst = 0.0
-    for name, value in table.items():
-        shown[name] = value.mid().str(DIGITS, radius=False)
-        error = abs(value - arb(shown[name]))
-        worst = max(worst, float(error.upper()))
-    return shown, worst * (1 + 1e-9)

@@ -97,10 +97,12 @@ def block_rank(
     nonvanishing ones the one with the simplest factors is taken.
     start: a nonvanishing minor to start from; largest: whether no rank on the ground is known to be larger.
 
+    >>> from singsym.classes.strata.patches import Patch
     >>> from singsym.polynomials import Ring
     >>> R = Ring(("x", "y"))
     >>> x, y = R.gens
     >>> line = Ground(Patch(R, {"y": R.zero}, ()), ((1.0, 0.0),))
+    >>> from singsym.varieties.real.system import RealSystem
     >>> matrix = PolynomialMatrix.of(R, [[x, y], [x, y]])
     >>> block_rank(matrix, line, line.certifier(RealSystem(R, ()), ()))
     BlockRank(rank=1, minors=(x,), exact=True, highest=True)

@@ -119,6 +119,7 @@ def ranked(
     known not to vanish.  first: `L_O` or `L_I`; where it has full rank, there is neither IIM nor RPM.
     least: what is known of the ranks; evident: the types whose strata are known.
 
+    >>> from singsym.classes.strata.patches import Patch
     >>> from singsym.polynomials import Ring
     >>> R = Ring(("x", "y"))
     >>> x, y = R.gens

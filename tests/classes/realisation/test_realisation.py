@@ -8,8 +8,9 @@ from math import isclose, pi
 import pytest
 
 from singsym.classes.classify import classify
+from singsym.classes.realisation.certified_configuration import Names
 from singsym.classes.realisation.curve_components import CurveTask, count
-from singsym.classes.realisation.realisation import Names, RealTask, realise
+from singsym.classes.realisation.realisation import RealTask, realise
 from singsym.classes.strata.branches import Found
 from singsym.classes.strata.ranks import Stratum
 from singsym.classes.taxonomy.types import Defects

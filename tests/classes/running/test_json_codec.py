@@ -13,8 +13,9 @@ from flint import fmpq, fmpz
 from hypothesis import given
 from hypothesis import strategies as st
 
+from singsym.classes.realisation.certified_configuration import Names
 from singsym.classes.realisation.curve_components import CurveTask, count
-from singsym.classes.realisation.realisation import Names, RealTask, realise
+from singsym.classes.realisation.realisation import RealTask, realise
 from singsym.classes.running.json_codec import Mismatch, codec, decode, encode
 from singsym.classes.solve import LocusTask, solve_locus
 from singsym.classes.strata.branches import Branch, Explored, explore

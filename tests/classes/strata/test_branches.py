@@ -12,7 +12,8 @@ import pytest
 
 from singsym.classes import classify as module
 from singsym.classes.classify import classify
-from singsym.classes.realisation.realisation import Names, RealTask, realise
+from singsym.classes.realisation.certified_configuration import Names
+from singsym.classes.realisation.realisation import RealTask, realise
 from singsym.classes.result import Classification
 from singsym.classes.running.runner import Runner
 from singsym.classes.strata import branches as explore_module
