@@ -206,10 +206,6 @@ class Dimensions:
         """Whether the expression is zero identically in the parameters (exact)."""
         return self.polynomial(self.base, expression).is_zero
 
-    def is_numeric(self, expression: Any) -> bool:
-        """Whether no ranged parameter is left in it once fixed values are put in."""
-        return not sympy.sympify(expression, strict=True).xreplace(dict(self.values)).free_symbols
-
     def is_positive(self, expression: Any) -> bool:
         """Whether it is certainly positive for all admitted parameters; False where that is not seen."""
         known = {

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from itertools import chain, combinations
 from math import comb, prod
 
@@ -108,21 +107,6 @@ def simplest_blocks(matrix: PolynomialMatrix, certifier: Certifier, outputs: int
     return min(found, other, key=lambda f: f.size)
 
 
-@dataclass(frozen=True)
-class RankLocus:
-    """Where a matrix has less than full rank: the union over `alternatives` of common zeros of polynomials.
-
-    An alternative (0,) is everywhere; there is none where the rank is full at every feasible configuration.
-    """
-
-    alternatives: tuple[tuple[Polynomial, ...], ...]
-
-    @cached_property
-    def is_everywhere(self) -> bool:
-        """Whether the rank is too low in every configuration."""
-        return any(all(p.is_zero for p in equations) for equations in self.alternatives)
-
-
 Minors = tuple[tuple[Polynomial, ...], ...]
 
 
@@ -141,18 +125,6 @@ def minor_factors(block: PolynomialMatrix, certifier: Certifier) -> Minors | Non
         found[frozenset(parts.polynomials)] = parts.polynomials
     kept = [f for key, f in found.items() if not any(other < key for other in found)]
     return tuple(sorted(kept, key=lambda f: (sum(len(p) for p in f), str(f))))
-
-
-def full_rank_locus(block: PolynomialMatrix, certifier: Certifier) -> tuple[Polynomial, ...] | None:
-    """Polynomials whose common zeros are where a block loses rank; None where it cannot.
-
-    Each is the product of the distinct factors, not proved nonzero, of a maximal minor.
-    """
-    minors = minor_factors(block, certifier)
-    if minors is None:
-        return None
-    products = [prod(factors, start=block.ring.one) for factors in minors]
-    return tuple(products) or (block.ring.zero,)
 
 
 MANY_ALTERNATIVES = 40
@@ -199,24 +171,3 @@ def _may_vanish(polynomials: Iterable[Polynomial], certifier: Certifier) -> bool
     short = [p for p in polynomials if len(p) <= 3]
     groups = (group for size in (2, 3) for group in combinations(short, size))
     return all(certifier.reason(sum((p * p for p in g[1:]), start=g[0] * g[0])) is None for g in groups)
-
-
-def rank_locus(matrix: PolynomialMatrix, rank: int, certifier: Certifier) -> RankLocus | None:
-    """Where the rank is below `rank`; None where that is not the full rank of what elimination leaves.
-
-    >>> from singsym.kinematics.placement import ConfigurationSpace
-    >>> from singsym.polynomials import Ring
-    >>> R = Ring(("x", "y"))
-    >>> x, y = R.gens
-    >>> space = Certifier(ConfigurationSpace(R, ()))
-    >>> rank_locus(PolynomialMatrix.of(R, [[x, 0], [y, 0], [0, y]]), 2, space).alternatives
-    ((x, y), (y,))
-    """
-    parts = rank_blocks(matrix, certifier)
-    if rank > parts.constant + sum(min(block.shape) for block in parts.blocks):
-        return RankLocus(((matrix.ring.zero,),))
-    blocks = parts.locus(rank)
-    if blocks is None:
-        return None
-    loci = (full_rank_locus(block, certifier) for block in blocks)
-    return RankLocus(tuple(locus for locus in loci if locus is not None))

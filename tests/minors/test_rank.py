@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from singsym.kinematics.nonzero import Certifier
 from singsym.kinematics.placement import ConfigurationSpace
-from singsym.minors.rank import rank_at, rank_blocks, rank_locus, simplest_blocks
+from singsym.minors.rank import minor_factors, rank_at, rank_blocks, simplest_blocks
 from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
 
 R = Ring(("x", "y", "z"))
@@ -19,13 +19,23 @@ POINTS = st.lists(st.integers(-1, 1), min_size=3, max_size=3)
 
 @settings(max_examples=80, deadline=None)
 @given(MATRICES, POINTS)
-def test_ranks_and_rank_locus(rows: list[list[Polynomial]], point: list[int]) -> None:
+def test_ranks_and_where_they_are_too_low(rows: list[list[Polynomial]], point: list[int]) -> None:
     matrix = PolynomialMatrix.of(R, rows)
     exact = [fmpq(v) for v in point]
     rank = matrix.to_sympy().subs(dict(zip("xyz", point, strict=True))).rank()
     assert rank_at(matrix, exact) == rank
     for parts in (rank_blocks(matrix, SPACE), simplest_blocks(matrix, SPACE, 1)):
         assert parts.constant + sum(rank_at(block, exact) for block in parts.blocks) == rank
-    locus = rank_locus(matrix, 3, SPACE)
-    assert locus is not None
-    assert any(all(p.evaluate(exact) == 0 for p in a) for a in locus.alternatives) == (rank < 3)
+    apart = rank_blocks(matrix, SPACE)
+    if apart.constant + sum(min(block.shape) for block in apart.blocks) < 3:
+        assert rank < 3
+        return
+    blocks = apart.locus(3)
+    assert blocks is not None
+    minors = [minor_factors(block, SPACE) for block in blocks]
+    lost = [
+        all(any(f.evaluate(exact) == 0 for f in factors) for factors in found)
+        for found in minors
+        if found is not None
+    ]
+    assert any(lost) == (rank < 3)

@@ -168,8 +168,3 @@ class _Queue(Generic[T, R]):
     def call_off(self) -> None:
         for future in self.running:
             future.cancel()
-
-
-def _with_engines(allowed: tuple[str, ...], function: Callable[[T], R], task: T) -> R:
-    with engines.use(*allowed):
-        return function(task)

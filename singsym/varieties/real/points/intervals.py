@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from fractions import Fraction
-from itertools import combinations
 
 from flint import arb, arb_mat, ctx, fmpq
 
@@ -142,19 +141,6 @@ def pivots(
             if factor:
                 work[k] = [a - factor * b for a, b in zip(work[k], work[i], strict=True)]
     return tuple(sorted(rows)), tuple(sorted(columns))
-
-
-def some_minor_nonzero(matrix: Sequence[Sequence[arb]], size: int) -> bool:
-    """As `rank_at_least`, trying every minor; for small matrices that pivoting fails on."""
-    if rank_at_least(matrix, size):
-        return True
-    if not matrix:
-        return size == 0
-    for rows in combinations(range(len(matrix)), size):
-        for columns in combinations(range(len(matrix[0])), size):
-            if regular([[matrix[i][j] for j in columns] for i in rows]):
-                return True
-    return False
 
 
 def _approximate_inverse(matrix: Sequence[Sequence[arb]]) -> arb_mat | None:
