@@ -16,10 +16,8 @@ from singsym.effort.verdict import Verdict
 from singsym.kinematics.reduction import Reduction
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import Mechanism
-from singsym.polynomials import Polynomial
+from singsym.polynomials import Equations, Polynomial
 from singsym.varieties.real.dimension.extent import UNKNOWN, Extent
-
-Equations = tuple[Polynomial, ...]
 
 
 @dataclass(frozen=True)

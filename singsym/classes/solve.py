@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 from singsym.classes.classify import Limits, classify_inside
 from singsym.classes.realisation.certified_configuration import Names, configuration
-from singsym.classes.result import Classification, Configuration, Equations, Piece
+from singsym.classes.result import Classification, Configuration, Piece
 from singsym.classes.running.disk_cache import user_cache
 from singsym.classes.running.processes import processes
 from singsym.classes.running.runner import Runner
@@ -25,6 +25,7 @@ from singsym.effort.verdict import Certainty, Verdict, certainties, weakest
 from singsym.elimination.ideal import Ideal
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import Mechanism
+from singsym.polynomials import Equations
 from singsym.varieties.cells import Cell
 from singsym.varieties.constructible import ConstructibleSet
 from singsym.varieties.decomposition import Component, decompose

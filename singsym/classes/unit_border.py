@@ -17,7 +17,6 @@ from singsym.classes.result import (
     Classification,
     ClassResult,
     Configuration,
-    Equations,
     Locus,
     Piece,
     SpacePiece,
@@ -29,7 +28,7 @@ from singsym.kinematics.placement import ConfigurationSpace
 from singsym.kinematics.velocity import VelocityEquation, velocity_equation
 from singsym.mechanism.model import Mechanism
 from singsym.mechanism.units import own_unit, scaled
-from singsym.polynomials import Polynomial
+from singsym.polynomials import Equations, Polynomial
 
 if TYPE_CHECKING:
     from singsym.classes.solve import SolutionPiece

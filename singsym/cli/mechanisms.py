@@ -60,12 +60,12 @@ def complaint(problems: tuple[Problem, ...]) -> str:
 
 def run_list(chosen: argparse.Namespace) -> int:
     """`singsym list`."""
-    from singsym.output.gallery_list import library_data, library_page
+    from singsym.output.gallery_list import gallery_page, library_data
 
     if chosen.format == "json":
         emit_data(library_data())
     else:
-        emit_page(library_page())
+        emit_page(gallery_page())
     return 0
 
 

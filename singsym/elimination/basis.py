@@ -92,7 +92,7 @@ def _groebner_basis(ring: Ring, generators: tuple[Polynomial, ...], budget: Budg
 
 def _ask(task: engines.Task, budget: Budget) -> engines.EngineAnswer:
     key = (task.ring, frozenset(task.generators))
-    return remember("engine groebner", key, lambda: engines.solve(task, budget), budget)
+    return remember("engine groebner", key, lambda: engines.ask(task, budget), budget)
 
 
 def _linear_part(ring: Ring, generators: list[Polynomial]) -> tuple[list[Polynomial], list[Polynomial]]:

@@ -86,7 +86,7 @@ def _eliminate_group(
             return tuple(free), basis.certainty
         weight *= 4
     variables = tuple(ring.gens[i] for i in positions)
-    answer = engines.solve(engines.Task("eliminate", ring, tuple(group), variables), budget)
+    answer = engines.ask(engines.Task("eliminate", ring, tuple(group), variables), budget)
     return answer.ideals[0], answer.certainty
 
 

@@ -316,7 +316,7 @@ class Ideal:
             return self._from(*eliminate(larger, system, {larger.names[0]}, budget))
         except engines.EngineFailure:
             task = engines.Task("saturate", graded, tuple(generators), (graded.convert(factor),))
-            answer = engines.solve(task, budget)
+            answer = engines.ask(task, budget)
             return self._from(answer.ideals[0], answer.certainty)
 
     def quotient(self, other: Polynomial | Ideal, budget: Budget | None = None) -> Ideal:

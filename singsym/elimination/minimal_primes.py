@@ -35,6 +35,6 @@ def _minimal_primes(ring: Ring, generators: Generators, budget: Budget) -> tuple
     if basis.is_unit:
         return ()
     task = engines.Task("minimal_primes", ring, basis.polynomials)
-    primes = engines.solve(task, budget).ideals
+    primes = engines.ask(task, budget).ideals
     bases = (groebner_basis(ring, prime, budget).polynomials for prime in primes)
     return tuple((*solved, *prime) for prime in bases if prime != (ring.one,))

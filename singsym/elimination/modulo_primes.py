@@ -62,4 +62,4 @@ def residues(ideal: Ideal, more: Iterable[Polynomial] = (), *, limited: bool = T
 
 def _basis(ring: Ring, generators: Sequence[Polynomial], prime: int, work: float | None) -> Basis:
     task = engines.Task("groebner", ring, tuple(generators), (), prime)
-    return engines.solve(task, current().part(work)).ideals[0]
+    return engines.ask(task, current().part(work)).ideals[0]

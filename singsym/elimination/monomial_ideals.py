@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from math import comb
 
-Exponents = tuple[int, ...]
+from singsym.polynomials import Exponents
 
 
 def divides(divisor: Exponents, monomial: Exponents) -> bool:

@@ -114,9 +114,9 @@ class Dimensions:
         """The ring of the dimensions alone."""
         return self.ring(())
 
-    def names(self) -> Names:
+    def names(self) -> VariableNames:
         """A dispenser of variable names that differ from those of the dimensions."""
-        return Names({*self.parameters, *(c.name for c in self.constants)})
+        return VariableNames({*self.parameters, *(c.name for c in self.constants)})
 
     # -- conversion ------------------------------------------------------------------------------
 
@@ -244,10 +244,10 @@ class Dimensions:
         return tuple(ring.gen(a.name) for a in self.auxiliaries if a.index > 0 and a.index % 2 == 0)
 
 
-class Names:
+class VariableNames:
     """Dispenses names of ring variables: letters, digits and underscores, each once.
 
-    >>> n = Names({"a"})
+    >>> n = VariableNames({"a"})
     >>> n.new("a"), n.new("B'x"), n.new("B'x")
     ('a_', 'B_x', 'B_x_')
     """

@@ -23,7 +23,7 @@ def kind(mechanism: Mechanism) -> str:
     return f"{mechanism.space}, {shape}"
 
 
-def library_page() -> Page:
+def gallery_page() -> Page:
     """Names, kinds, sizes, classes, titles and sources of all mechanisms of the library."""
     rows = []
     for mechanism in map(load, library.names()):

@@ -10,9 +10,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from singsym.effort.verdict import described
+from singsym.polynomials import Equations
 
 if TYPE_CHECKING:
-    from singsym.classes.result import Classification, ClassResult, Equations, Locus, Piece
+    from singsym.classes.result import Classification, ClassResult, Locus, Piece
     from singsym.kinematics.velocity import VelocityEquation
     from singsym.varieties.real.dimension.extent import Extent
 

@@ -40,12 +40,6 @@ _CLASSES = ("class", "types", "there?", "known by", "dimension", "points", "comp
 # -- the mechanism -----------------------------------------------------------------------------------
 
 
-def library_page(mechanisms: Iterable[Mechanism]) -> Page:
-    """Names, titles and sources of mechanisms."""
-    rows = tuple((m.name, str(m.N), str(m.n), m.title, m.source) for m in mechanisms)
-    return (Grid(("name", "N", "n", "what it is", "source"), rows),)
-
-
 def mechanism_page(mechanism: Mechanism, equation: VelocityEquation) -> Page:
     """A mechanism's parts, its loop equations and its velocity equation."""
     space = equation.space

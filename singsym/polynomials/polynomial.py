@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 Rational = int | Fraction | fmpz | fmpq
 Operand = Union["Polynomial", int, Fraction, fmpz, fmpq]
+Exponents = tuple[int, ...]
+"""Of a monomial, one for each variable of the ring."""
 
 
 def as_fmpq(number: Rational) -> fmpq:
@@ -327,3 +329,7 @@ def _factors(polynomial: Polynomial) -> tuple[tuple[Polynomial, int], ...]:
 
 def _rebuild(ring: Ring, terms: tuple[tuple[tuple[int, ...], int, int], ...]) -> Polynomial:
     return ring.from_dict({m: fmpq(p, q) for m, p, q in terms})
+
+
+Equations = tuple[Polynomial, ...]
+"""Polynomials that vanish together."""

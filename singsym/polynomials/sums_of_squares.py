@@ -8,8 +8,7 @@ from __future__ import annotations
 from flint import fmpq
 
 from singsym.polynomials import Polynomial
-
-Monomial = tuple[int, ...]
+from singsym.polynomials.polynomial import Exponents
 
 
 def sum_of_squares(polynomial: Polynomial) -> tuple[int, tuple[Polynomial, ...]] | None:
@@ -69,7 +68,7 @@ def squares_less_constant(
     return sign, kept, sum((-d for d, root in squares if root.is_constant), start=fmpq(0))
 
 
-def _pair(m: Monomial, half: list[Monomial]) -> tuple[Monomial, Monomial] | None:
+def _pair(m: Exponents, half: list[Exponents]) -> tuple[Exponents, Exponents] | None:
     known = set(half)
     for a in half:
         b = tuple(x - y for x, y in zip(m, a, strict=True))
@@ -79,7 +78,7 @@ def _pair(m: Monomial, half: list[Monomial]) -> tuple[Monomial, Monomial] | None
 
 
 def _decomposed(
-    polynomial: Polynomial, half: list[Monomial], gram: dict[tuple[Monomial, Monomial], fmpq]
+    polynomial: Polynomial, half: list[Exponents], gram: dict[tuple[Exponents, Exponents], fmpq]
 ) -> list[tuple[fmpq, Polynomial]] | None:
     """D and the rows of L^T in Gram = L D L^T; `None` where D < 0 elsewhere than at the constant."""
     size = len(half)

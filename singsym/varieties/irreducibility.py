@@ -16,11 +16,10 @@ from flint import fmpq, fmpq_mat, fmpq_poly, fmpz_mat, nmod_mat
 from singsym.effort import chance
 from singsym.effort.budget import current
 from singsym.elimination.ideal import Ideal
-from singsym.polynomials import Polynomial, Ring
+from singsym.polynomials import Exponents, Polynomial, Ring
 from singsym.varieties.real.points.quotient_algebra import Algebra, quotient_algebra, standard_monomials
 from singsym.varieties.torsion import NormalForms, off_free, presentation, torsion_support
 
-Exponents = tuple[int, ...]
 _LARGEST_FIBRE = 120
 _LARGEST_SEARCH = 330
 

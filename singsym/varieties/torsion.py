@@ -16,9 +16,8 @@ from singsym.effort.budget import current
 from singsym.effort.chance import random_primes
 from singsym.elimination.engines.division import remainder
 from singsym.minors.determinant import TooManyTerms, block_determinants
-from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
+from singsym.polynomials import Exponents, Polynomial, PolynomialMatrix, Ring
 
-Exponents = tuple[int, ...]
 _LARGEST = 80
 _LARGEST_DETERMINANT, _MOST_TERMS = 40, 20_000
 

@@ -126,7 +126,7 @@ def test_msolve_reads_large_coefficients_modulo_a_prime() -> None:
     prime = 2**31 - 1
     task = engines.Task("groebner", R, (x * (2**31 - 1) * 5 + BIG * y - 1, z**2 - y, x**2 - z), (), prime)
     with engines.use("msolve"):
-        basis = engines.solve(task).ideals[0]
+        basis = engines.ask(task).ideals[0]
     value = pow(BIG, -1, prime)
     assert (y - value) in basis or (y - value + prime) in basis
 
@@ -179,9 +179,9 @@ def test_singular_decomposes_what_factoring_does() -> None:
     ideal = Ideal(R, (x * y * (x - 1), z * (x**2 - 2)))
     with engines.use("flint", "singular"):
         primes = {p.groebner_basis() for p in ideal.minimal_primes()}
-        pieces = engines.solve(engines.Task("facstd", R, ideal.generators)).ideals
-        eliminated = engines.solve(engines.Task("eliminate", R, (x - z**2, y - z**3), (z,))).ideals[0]
-        saturated = engines.solve(engines.Task("saturate", R, ideal.generators, (z,))).ideals[0]
+        pieces = engines.ask(engines.Task("facstd", R, ideal.generators)).ideals
+        eliminated = engines.ask(engines.Task("eliminate", R, (x - z**2, y - z**3), (z,))).ideals[0]
+        saturated = engines.ask(engines.Task("saturate", R, ideal.generators, (z,))).ideals[0]
     assert primes == {(z, x), (z, y), (z, x - 1), (y, x**2 - 2)}
     assert len(pieces) >= 4
     assert eliminated == (x**3 - y**2,)

@@ -8,8 +8,7 @@ from random import Random
 import pytest
 
 from singsym.elimination.engines.checks import _pairs
-
-Exponents = tuple[int, ...]
+from singsym.polynomials import Exponents
 
 
 def is_needed(leading: list[Exponents], i: int, j: int) -> bool:

@@ -9,7 +9,7 @@ import sympy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from singsym.kinematics.dimensions import Dimensions, Names, dimensions
+from singsym.kinematics.dimensions import Dimensions, VariableNames, dimensions
 from singsym.mechanism import load
 from singsym.mechanism.model import Parameter
 from singsym.polynomials import Ring
@@ -119,5 +119,5 @@ def test_what_is_refused() -> None:
 
 def test_names_differ_from_those_of_the_dimensions() -> None:
     assert dimensions(load("2r"), ("x",)).ring.names[0] == "x"
-    names = Names({"Bx"})
+    names = VariableNames({"Bx"})
     assert [names.new("Bx"), names.new("1")] == ["Bx_", "v1"]

@@ -14,13 +14,11 @@ from singsym.effort.patience import scaled
 from singsym.elimination import engines
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.memo import forget
-from singsym.polynomials import AlgebraicConstant, Polynomial, Ring
+from singsym.polynomials import AlgebraicConstant, Equations, Polynomial, Ring
 from singsym.varieties.decomposition import decompose
 
 R = Ring(("x", "y", "z"))
 x, y, z = R.gens
-
-Equations = tuple[Polynomial, ...]
 
 
 def zeros(*equations: Polynomial, nonzero: Equations = (), ring: Ring = R) -> set[frozenset[Polynomial]]:

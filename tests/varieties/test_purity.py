@@ -14,7 +14,7 @@ from singsym.effort.budget import Budget, Undecided
 from singsym.elimination import engines
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.memo import forget
-from singsym.polynomials import Polynomial, Ring
+from singsym.polynomials import Equations, Polynomial, Ring
 from singsym.varieties import decomposition
 from singsym.varieties.constructible import ConstructibleSet
 from singsym.varieties.decomposition import Component, decompose
@@ -25,7 +25,6 @@ from singsym.varieties.real.proofs.critical_points import component_samples, sam
 from singsym.varieties.real.proofs.emptiness import is_empty_over_reals
 from singsym.varieties.real.system import RealSystem
 
-Equations = tuple[Polynomial, ...]
 R = Ring(("x", "y", "z"))
 x, y, z = R.gens
 

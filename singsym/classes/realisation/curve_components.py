@@ -8,9 +8,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import combinations
 
-from singsym.classes.result import Equations
 from singsym.effort.budget import Budget, Undecided
 from singsym.elimination.ideal import Ideal
+from singsym.polynomials import Equations
 from singsym.varieties.real.curves.equations import NotACurve
 from singsym.varieties.real.curves.parts import components_outside
 from singsym.varieties.real.curves.real_curve import real_curve

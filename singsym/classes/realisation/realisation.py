@@ -21,7 +21,7 @@ from singsym.classes.realisation.dimension_bounds import (
     points_off_exclusions,
 )
 from singsym.classes.realisation.local_coordinates import are_missed
-from singsym.classes.result import Equations, Piece
+from singsym.classes.result import Piece
 from singsym.classes.strata.branches import Found
 from singsym.classes.strata.occurrence import is_proven_empty, restricted
 from singsym.classes.strata.patches import Patch, unsplit
@@ -29,7 +29,9 @@ from singsym.classes.strata.reflections import image
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Budget, Undecided
 from singsym.effort.verdict import Certainty, Verdict, certainties, weakest
+from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.kinematics.placement import JointValue
+from singsym.polynomials import Equations
 from singsym.varieties.real.dimension.extent import EMPTY, Extent
 from singsym.varieties.real.dimension.hyperplane_cuts import Cut, dimension_by_cuts
 from singsym.varieties.real.dimension.independent_coordinates import are_dependent
@@ -38,7 +40,7 @@ from singsym.varieties.real.numerical.sampling import numerical_codimension
 from singsym.varieties.real.points.boxed_point import BoxPoint
 from singsym.varieties.real.points.certified_point import Witness, find_witness
 from singsym.varieties.real.points.exact_point import RealPoint
-from singsym.varieties.real.points.finite_sets import NotZeroDimensional, real_points
+from singsym.varieties.real.points.finite_sets import real_points
 from singsym.varieties.real.proofs.critical_points import sample_points
 from singsym.varieties.real.proofs.vector_charts import Cartesian
 from singsym.varieties.real.system import RealSystem
@@ -93,7 +95,7 @@ class Realised:
         return any(piece.provisional for piece in self.pieces)
 
 
-Points = tuple[RealPoint | BoxPoint, ...]
+CertifiedPoints = tuple[RealPoint | BoxPoint, ...]
 
 
 def realise(task: RealTask) -> Realised:
@@ -102,7 +104,7 @@ def realise(task: RealTask) -> Realised:
     piece = _piece(task, "not examined")
     exclusions = (*task.feasible.exclusions, *stratum.loci)
     system = replace(task.feasible, equations=stratum.equations, exclusions=exclusions)
-    points: Points = ()
+    points: CertifiedPoints = ()
     try:
         with Budget(work=task.seconds, memory_mb=task.memory_mb), certainties() as seen:
             if task.known is None:
@@ -121,7 +123,9 @@ def realise(task: RealTask) -> Realised:
     return Realised(tuple(_images(piece, points, task)))
 
 
-def _above(piece: Piece, points: Points, system: RealSystem, task: RealTask) -> tuple[Piece, Points]:
+def _above(
+    piece: Piece, points: CertifiedPoints, system: RealSystem, task: RealTask
+) -> tuple[Piece, CertifiedPoints]:
     """A piece with what is found of it above a known dimension, or that there is nothing."""
     known, most = max(task.known or 0, piece.extent.at_least), piece.extent.at_most
     if most is not None and most <= known:
@@ -148,7 +152,7 @@ def _piece(task: RealTask, reason: str) -> Piece:
     return Piece(task.found.path, stratum.equations, stratum.loci, stratum.defects, verdict, extent)
 
 
-def _realised(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, Points]:
+def _realised(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, CertifiedPoints]:
     stratum = task.found.stratum
     component = stratum.component
     if component is None:
@@ -162,7 +166,7 @@ def _realised(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, 
     return _counted(*_exactly(piece, *found, weakest(*seen)), system, stratum.elsewhere)
 
 
-def _images(piece: Piece, points: Points, task: RealTask) -> Iterator[Piece]:
+def _images(piece: Piece, points: CertifiedPoints, task: RealTask) -> Iterator[Piece]:
     """The piece with its configurations for each image; a point that an earlier image has is left out."""
     seen: list[RealPoint] = []
     for reflection in task.found.images:
@@ -185,7 +189,7 @@ def _images(piece: Piece, points: Points, task: RealTask) -> Iterator[Piece]:
         yield replace(shown, points=len(own), components=len(own)) if piece.points else shown
 
 
-def _given(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, Points]:
+def _given(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, CertifiedPoints]:
     """A set given by equations: where their gradients are independent at a point, a manifold near it."""
     elsewhere = task.found.stratum.elsewhere
     dimension = len(system.ring.names) - len(system.closed_equations)
@@ -218,7 +222,7 @@ def _finitely_many(system: RealSystem) -> Sequence[RealPoint] | None:
 
 def _bounded(
     piece: Piece, system: RealSystem, known: tuple[int, Witness], task: RealTask
-) -> tuple[Piece, Points]:
+) -> tuple[Piece, CertifiedPoints]:
     """A set with a certified point, near which it has a dimension: is there a part with a larger one?"""
     most, (dimension, witness) = piece.extent.at_most, known
     found, points = _known(piece, Extent(dimension, most), witness)
@@ -235,7 +239,7 @@ def _bounded(
         return replace(found, extent=replace(found.extent, open=str(reason))), points
 
 
-def _singular(piece: Piece, system: RealSystem, patch: Patch) -> tuple[Piece, Points]:
+def _singular(piece: Piece, system: RealSystem, patch: Patch) -> tuple[Piece, CertifiedPoints]:
     """A set of which no regular point is known; a manifold in it shows that it occurs, with a dimension."""
     inside = next(larger_parts(off_borders(system), 0), None)
     if inside is None:
@@ -250,7 +254,7 @@ def _singular(piece: Piece, system: RealSystem, patch: Patch) -> tuple[Piece, Po
         return replace(found, extent=replace(found.extent, open=str(reason))), points
 
 
-def _dependent(piece: Piece, system: RealSystem, patch: Patch) -> tuple[Piece, Points]:
+def _dependent(piece: Piece, system: RealSystem, patch: Patch) -> tuple[Piece, CertifiedPoints]:
     """A set given by dependent equations: its dimension by cuts, else by its components."""
     chart, beside = _charted(system, patch)
     cut = _cut(chart.system)
@@ -271,7 +275,7 @@ def _is_inside(witness: Witness, system: RealSystem) -> bool:
     return all(witness.sign(witness.ring.convert(p)) > 0 for p in system.nonnegative if p)
 
 
-def _by_components(piece: Piece, system: RealSystem) -> tuple[Piece, Points]:
+def _by_components(piece: Piece, system: RealSystem) -> tuple[Piece, CertifiedPoints]:
     with certainties() as seen:
         found = real_dimension(system)
     return _exactly(piece, *found, weakest(*seen))
@@ -323,7 +327,7 @@ def _finite(
     system: RealSystem,
     elsewhere: tuple[Equations, ...],
     known: Certainty,
-) -> tuple[Piece, Points]:
+) -> tuple[Piece, CertifiedPoints]:
     """The points of a set; known: how it is that the solutions are all that there are, or may be in it."""
     points = tuple(p for p in solutions if system.admits(p) and not _lies_in(p, elsewhere))
     if not points:
@@ -339,7 +343,7 @@ def _finite(
 
 def _exactly(
     piece: Piece, dimension: int, witness: Witness | None, known: Certainty = "proven"
-) -> tuple[Piece, Points]:
+) -> tuple[Piece, CertifiedPoints]:
     """A set whose real dimension is known, with a point of it where there is one; known: how it is."""
     if witness is None:
         verdict = Verdict.no(known, reason="the equations have no real and feasible solution")
@@ -347,14 +351,14 @@ def _exactly(
     return _known(piece, Extent(dimension, dimension, known), witness)
 
 
-def _known(piece: Piece, extent: Extent, witness: Witness) -> tuple[Piece, Points]:
+def _known(piece: Piece, extent: Extent, witness: Witness) -> tuple[Piece, CertifiedPoints]:
     verdict = Verdict.yes("proven" if isinstance(witness.point, RealPoint) else "certified")
     return replace(piece, verdict=verdict, extent=extent), (witness.point,)
 
 
 def _counted(
-    piece: Piece, points: Points, system: RealSystem, elsewhere: tuple[Equations, ...]
-) -> tuple[Piece, Points]:
+    piece: Piece, points: CertifiedPoints, system: RealSystem, elsewhere: tuple[Equations, ...]
+) -> tuple[Piece, CertifiedPoints]:
     """The same with all points where the real dimension is 0, although there may be more complex zeros.
 
     Where no inequality is an equality, each is a connected component of the equations' zeros off the

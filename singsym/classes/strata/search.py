@@ -11,11 +11,12 @@ from dataclasses import dataclass, replace
 from operator import attrgetter
 
 from singsym.classes.running.runner import Runner
-from singsym.classes.strata.branches import Branch, Equations, Explored, Found, explore, explore_patiently
+from singsym.classes.strata.branches import Branch, Explored, Found, explore, explore_patiently
 from singsym.classes.strata.ranks import Stratum
 from singsym.classes.taxonomy.types import Defects, SingularityType
 from singsym.effort.budget import Budget
 from singsym.effort.verdict import Certainty, weakest
+from singsym.polynomials import Equations
 
 _T = SingularityType
 _SIMPLE = (_T(0), _T.RI | _T.IO, _T.RO | _T.II)

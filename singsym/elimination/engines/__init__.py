@@ -14,10 +14,10 @@ from singsym.elimination.engines.base import (
 from singsym.elimination.engines.registry import (
     EngineStatus,
     allowed,
+    ask,
     close,
     has,
     install,
-    solve,
     status,
     use,
 )
@@ -30,12 +30,12 @@ __all__ = [
     "EngineUnavailable",
     "Task",
     "allowed",
+    "ask",
     "close",
     "has",
     "install",
     "patiently",
     "proof_patience",
-    "solve",
     "status",
     "use",
 ]

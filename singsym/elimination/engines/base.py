@@ -29,6 +29,10 @@ class EngineUnavailable(Undecided):
     """No engine that is present and allowed can do this; the message says how to get one."""
 
 
+class NotZeroDimensional(ValueError):
+    """Finitely many complex points are expected, and there are infinitely many."""
+
+
 @dataclass(frozen=True)
 class Task:
     """A computation with polynomials of one ring.

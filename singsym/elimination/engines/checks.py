@@ -15,9 +15,8 @@ from singsym.effort.chance import PRIMES, numbers_in, random_primes
 from singsym.effort.verdict import Certainty
 from singsym.elimination.engines.base import EngineAnswer, EngineFailure, Task
 from singsym.elimination.engines.division import remainder, s_polynomial
-from singsym.polynomials import Polynomial, Ring
+from singsym.polynomials import Exponents, Polynomial, Ring
 
-Exponents = tuple[int, ...]
 ModularBasis = frozenset[tuple[tuple[Exponents, int], ...]]
 
 _PAIR_BITS = 1e9

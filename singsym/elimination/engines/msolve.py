@@ -13,7 +13,13 @@ from fractions import Fraction
 from pathlib import Path
 
 from singsym.effort.budget import Budget, current
-from singsym.elimination.engines.base import EngineAnswer, EngineFailure, EngineUnavailable, Task
+from singsym.elimination.engines.base import (
+    EngineAnswer,
+    EngineFailure,
+    EngineUnavailable,
+    NotZeroDimensional,
+    Task,
+)
 from singsym.elimination.engines.discovery import HOW_TO_GET, find_program, output_of
 from singsym.elimination.engines.process import Child
 from singsym.elimination.engines.text import read, used_variables, write
@@ -23,10 +29,6 @@ RealBox = dict[str, tuple[Fraction, Fraction]]
 
 _NUMBER = re.compile(r"(-?\d+)(?:\s*/\s*(\d+)(?:\s*\^\s*(\d+))?)?")
 _TOKEN = re.compile(r"\s*([\[\],:]|-?\d+(?:\s*/\s*\d+(?:\s*\^\s*\d+)?)?)")
-
-
-class NotZeroDimensional(ValueError):
-    """The system has infinitely many complex solutions."""
 
 
 @dataclass(frozen=True)

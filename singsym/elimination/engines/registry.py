@@ -84,7 +84,7 @@ def has(name: str) -> bool:
     return name in allowed() and _ENGINES[name].available()
 
 
-def solve(task: Task, budget: Budget | None = None) -> EngineAnswer:
+def ask(task: Task, budget: Budget | None = None) -> EngineAnswer:
     """The checked answer of the first allowed engine that has one.
 
     Raises `EngineUnavailable` (nobody can), `BudgetExceeded`, or `EngineFailure` (all of them failed).
@@ -165,7 +165,7 @@ def _checked(task: Task, answer: EngineAnswer, work: float, budget: Budget) -> E
         return answer
     if task.kind != "groebner":
         with certainties() as seen:
-            certainty = checks.check_ideals(task, answer, lambda t: solve(t, budget))
+            certainty = checks.check_ideals(task, answer, lambda t: ask(t, budget))
         return replace(answer, certainty=weakest(certainty, *seen))
     if len(answer.ideals) != 1:
         raise EngineFailure(answer.engine, f"returned {len(answer.ideals)} bases for one ideal")
@@ -185,10 +185,10 @@ def _checked(task: Task, answer: EngineAnswer, work: float, budget: Budget) -> E
                 raise EngineFailure(answer.engine, "returned a wrong basis: it differs from that over Q")
             return replace(answer, certainty="proven")
 
-    def ask(task: Task, another: bool) -> EngineAnswer | None:
+    def modulo(task: Task, another: bool) -> EngineAnswer | None:
         return _modulo(task, answer.engine if another else "", budget)
 
-    compared = checks.compare_modulo_primes(task, answer, ask)
+    compared = checks.compare_modulo_primes(task, answer, modulo)
     return answer if complete and compared else replace(answer, certainty="modular")
 
 

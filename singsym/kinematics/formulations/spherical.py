@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import networkx
 
-from singsym.kinematics.dimensions import Names, dimensions
+from singsym.kinematics.dimensions import VariableNames, dimensions
 from singsym.kinematics.formulations import local
 from singsym.kinematics.formulations.assembly import Assembly, placement
 from singsym.kinematics.formulations.frames import Algebra, Body, rigid
@@ -48,7 +48,7 @@ def place(mechanism: Mechanism) -> Placement:
     shared = _shared(mechanism)
     steps, free = _plan(mechanism, geometry, shared)
     given = dimensions(mechanism, ())
-    names = Names({*given.ring.names})
+    names = VariableNames({*given.ring.names})
     moving = {axis: _three(names, axis[1]) for axis in free}
     own = {step.link: _three(names, f"e_{step.link}") for step in steps if step.own is not None}
     sized = dimensions(mechanism, [n for three in (*moving.values(), *own.values()) for n in three])
@@ -81,7 +81,7 @@ def _check(mechanism: Mechanism) -> None:
         raise ValueError(f"links {', '.join(loose)} are not attached: connect them to the ground by joints")
 
 
-def _three(names: Names, stem: str) -> tuple[str, str, str]:
+def _three(names: VariableNames, stem: str) -> tuple[str, str, str]:
     return names.new(f"{stem}x"), names.new(f"{stem}y"), names.new(f"{stem}z")
 
 

@@ -17,11 +17,12 @@ import numpy as np
 from singsym.effort import chance
 from singsym.effort.budget import Budget, Undecided
 from singsym.effort.progress import report
+from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.minors.determinant import determinant
 from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
 from singsym.varieties.real.curves.arithmetic import EPSILON, Array, Balls
 from singsym.varieties.real.points.exact_point import RealPoint
-from singsym.varieties.real.points.finite_sets import NotZeroDimensional, real_points
+from singsym.varieties.real.points.finite_sets import real_points
 
 Row = tuple[Polynomial, ...]
 
@@ -43,7 +44,7 @@ class Samples:
     level: Fraction | None = None
 
 
-def sample_points(equations: Sequence[Polynomial], seed: int, budget: Budget) -> Samples | None:
+def points_on_components(equations: Sequence[Polynomial], seed: int, budget: Budget) -> Samples | None:
     """Samples of V(equations); `None` where every attempt meets infinitely many critical points.
 
     Lemma: where a function attains its minimum on a component it is critical.  A linear form does on a

@@ -19,7 +19,7 @@ from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.real.curves.arithmetic import Array, System
 from singsym.varieties.real.curves.assembly import Assembly, assemble, count_without, extended
-from singsym.varieties.real.curves.critical_points import Samples, sample_points
+from singsym.varieties.real.curves.critical_points import Samples, points_on_components
 from singsym.varieties.real.curves.equations import CurveEquations, candidates
 from singsym.varieties.real.curves.stars import find_stars
 from singsym.varieties.real.points.exact_point import RealPoint
@@ -156,7 +156,7 @@ def _solved(
     for choice in candidates(ring, generators, budget):
         if not choice.equations:
             return _result(ring, Assembly.empty(), choice, drawing)
-        samples = sample_points(choice.equations, seed, budget)
+        samples = points_on_components(choice.equations, seed, budget)
         if samples is None:
             reason = "the critical points are not isolated: the equations are not reduced, or not of a curve"
             continue

@@ -19,10 +19,11 @@ from singsym.effort.attempts import attempt
 from singsym.effort.budget import Budget, Undecided, current
 from singsym.effort.chaos import strikes
 from singsym.effort.verdict import Certainty
+from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.real.points.boxed_point import BoxPoint, boxed_point
 from singsym.varieties.real.points.exact_point import RealPoint
-from singsym.varieties.real.points.finite_sets import NotZeroDimensional, pinned, real_points
+from singsym.varieties.real.points.finite_sets import pinned, real_points
 from singsym.varieties.real.system import RealSystem
 from singsym.varieties.unit_circles import unit_circles
 

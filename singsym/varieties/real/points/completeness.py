@@ -12,9 +12,9 @@ from flint import fmpz_mpoly_vec, nmod_mat, nmod_poly
 
 from singsym.effort.chance import random_primes
 from singsym.elimination.engines.division import remainder
-from singsym.polynomials import Polynomial
+from singsym.polynomials import Exponents, Polynomial
 from singsym.varieties.real.points.parametrization import Parametrization, reconstruct
-from singsym.varieties.real.points.quotient_algebra import Check, Monomial, standard_monomials
+from singsym.varieties.real.points.quotient_algebra import Check, standard_monomials
 
 _MOST = 40
 """More nilpotents are not looked for."""
@@ -55,7 +55,7 @@ def is_complete(found: Parametrization, basis: Sequence[Polynomial], check: Chec
 
 
 def _vanishing(
-    found: Parametrization, standard: Sequence[Monomial], count: int, check: Check
+    found: Parametrization, standard: Sequence[Exponents], count: int, check: Check
 ) -> Iterator[list[list[int]]]:
     """Guesses at independent combinations, in echelon form, of monomials that vanish at all points."""
     modulus, residues = 1, [0] * (count * len(standard))
@@ -84,7 +84,7 @@ def _vanishing(
 
 
 def _vanishing_modulo(
-    found: Parametrization, standard: Sequence[Monomial], prime: int
+    found: Parametrization, standard: Sequence[Exponents], prime: int
 ) -> list[list[int]] | None:
     """The same modulo a prime; None where the prime does not suit the parametrisation."""
     coordinates = found.modulo(prime)

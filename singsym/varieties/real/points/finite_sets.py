@@ -21,7 +21,7 @@ from singsym.effort.processor_time import worked
 from singsym.effort.verdict import note
 from singsym.elimination import engines
 from singsym.elimination.basis import canonical, groebner_basis
-from singsym.elimination.engines.msolve import NotZeroDimensional as InfinitelyMany
+from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.elimination.engines.msolve import RawParametrization
 from singsym.elimination.engines.registry import msolve, over_rationals
 from singsym.elimination.ideal import Ideal
@@ -35,13 +35,12 @@ from singsym.varieties.real.points.parametrization import Parametrization, divid
 from singsym.varieties.real.points.quotient_algebra import (
     Algebra,
     Check,
-    NotZeroDimensional,
     commuting,
     quotient_algebra,
     reduced,
 )
 
-__all__ = ["NotZeroDimensional", "pinned", "real_points", "solve"]
+__all__ = ["parametrized", "pinned", "real_points"]
 
 # (polynomials, terms of each, bits of a coefficient) up to which FLINT computes a basis in this process
 _CAPS = (150, 500, 1500)
@@ -68,11 +67,11 @@ def real_points(
     >>> [p.decimals(4) for p in real_points([x**2 + y**2 - 4, x - y])]
     [{'x': '-1.414', 'y': '-1.414'}, {'x': '1.414', 'y': '1.414'}]
     """
-    found = solve(equations, budget)
+    found = parametrized(equations, budget)
     return tuple(p for p in real_points_of(found) if pinned(p, found.ring.constants))
 
 
-def solve(equations: Ideal | Sequence[Polynomial], budget: Budget | None = None) -> Parametrization:
+def parametrized(equations: Ideal | Sequence[Polynomial], budget: Budget | None = None) -> Parametrization:
     """All complex points of a zero-dimensional system as functions of the roots of one polynomial.
 
     FLINT's basis first where it takes milliseconds, then msolve's parametrisation where it is there, then the
@@ -160,8 +159,6 @@ def _by_msolve(ring: Ring, system: Sequence[Polynomial], budget: Budget) -> Para
     """msolve's parametrisation with every point proven by substitution; `None` where that fails."""
     try:
         raw = msolve.parametrization(system, ring, budget=budget)
-    except InfinitelyMany as error:
-        raise NotZeroDimensional(str(error)) from None
     except engines.EngineFailure:
         cut_short("real points by msolve")
         budget.check("real points by msolve")

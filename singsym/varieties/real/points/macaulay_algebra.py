@@ -14,17 +14,11 @@ from flint import fmpq, fmpq_mat, nmod_mat
 from singsym.effort.chance import random_primes
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.monomial_ideals import divides
-from singsym.polynomials import Polynomial
-from singsym.varieties.real.points.quotient_algebra import (
-    Algebra,
-    Check,
-    Monomial,
-    degrevlex,
-    quotient_algebra,
-)
+from singsym.polynomials import Exponents, Polynomial
+from singsym.varieties.real.points.quotient_algebra import Algebra, Check, degrevlex, quotient_algebra
 
 _MOST_COLUMNS = 1200
-Vector = dict[Monomial, fmpq]
+Vector = dict[Exponents, fmpq]
 
 
 def quotient_algebra_over(
@@ -58,16 +52,16 @@ class _Rows:
 
     def __init__(self, easy: Ideal, hard: Sequence[Polynomial]) -> None:
         self.ring = easy.ring
-        self.rules: dict[Monomial, Vector] = {}
+        self.rules: dict[Exponents, Vector] = {}
         for g in easy.groebner_basis():
             (head, lead), *tail = _terms(g)
             self.rules[head] = {m: -c / lead for m, c in tail}
-        self.forms: dict[Monomial, Vector] = {}
-        self.layers: list[list[Monomial]] = [[(0,) * len(self.ring.names)]]
+        self.forms: dict[Exponents, Vector] = {}
+        self.layers: list[list[Exponents]] = [[(0,) * len(self.ring.names)]]
         self.hard = [dict(_terms(f)) for f in (easy.normal_form(f) for f in hard) if f]
         self.degrees = [max(map(sum, f)) for f in self.hard]
         self.first = max(self.degrees, default=1)
-        self.multiples: list[dict[Monomial, Vector]] = [{} for _ in self.hard]
+        self.multiples: list[dict[Exponents, Vector]] = [{} for _ in self.hard]
         self.degree = 0
         self.bound = 0
         self.primes = random_primes("multiplication", bits=62)
@@ -90,7 +84,7 @@ class _Rows:
                         self.multiples[k][m] = self._multiple(k, m, f)
         self.degree = degree
 
-    def _multiple(self, k: int, m: Monomial, f: Vector) -> Vector:
+    def _multiple(self, k: int, m: Exponents, f: Vector) -> Vector:
         for i, e in enumerate(m):
             if e:
                 return self.times(i, self.multiples[k][(*m[:i], e - 1, *m[i + 1 :])])
@@ -104,7 +98,7 @@ class _Rows:
                 total[t] = total.get(t, fmpq(0)) + c * d
         return {m: c for m, c in total.items() if c}
 
-    def form(self, m: Monomial) -> Vector:
+    def form(self, m: Exponents) -> Vector:
         """The normal form of a monomial modulo the easy equations."""
         known = self.forms.get(m)
         if known is not None:
@@ -119,7 +113,7 @@ class _Rows:
         self.forms[m] = found
         return found
 
-    def _reducible_part(self, m: Monomial) -> tuple[int, Monomial]:
+    def _reducible_part(self, m: Exponents) -> tuple[int, Exponents]:
         for i, e in enumerate(m):
             if e:
                 rest = (*m[:i], e - 1, *m[i + 1 :])
@@ -130,7 +124,7 @@ class _Rows:
     # -- linear algebra ------------------------------------------------------------------------------
 
     @property
-    def columns(self) -> list[Monomial]:
+    def columns(self) -> list[Exponents]:
         """All monomials up to the degree, largest first."""
         return [m for layer in reversed(self.layers[: self.degree + 1]) for m in reversed(layer)]
 
@@ -139,7 +133,7 @@ class _Rows:
         for multiples in self.multiples:
             yield from multiples.values()
 
-    def reduced_modulo_prime(self) -> tuple[list[Monomial], list[Vector]] | None:
+    def reduced_modulo_prime(self) -> tuple[list[Exponents], list[Vector]] | None:
         """Leading monomials of the rows' span modulo a prime, and as many independent rows.
 
         `None` until all monomials of some degree, the `bound`, are among them.
@@ -160,7 +154,7 @@ class _Rows:
                 return pivots, chosen
         return None
 
-    def basis(self, pivots: Sequence[Monomial]) -> list[Monomial] | None:
+    def basis(self, pivots: Sequence[Exponents]) -> list[Exponents] | None:
         """The monomials that are no pivots, smallest first; `None` where one is not a multiple of another."""
         taken = set(pivots)
         found = [m for layer in self.layers[: self.bound] for m in layer if m not in taken]
@@ -172,7 +166,7 @@ class _Rows:
         return found
 
     def commute(
-        self, basis: Sequence[Monomial], pivots: Sequence[Monomial], chosen: Sequence[Vector]
+        self, basis: Sequence[Exponents], pivots: Sequence[Exponents], chosen: Sequence[Vector]
     ) -> bool:
         """Whether the multiplication matrices commute modulo the prime."""
         if not basis:
@@ -204,7 +198,7 @@ class _Rows:
         return all(a * b == b * a for k, a in enumerate(matrices) for b in matrices[:k])
 
     def algebra(
-        self, basis: Sequence[Monomial], pivots: Sequence[Monomial], chosen: Sequence[Vector], check: Check
+        self, basis: Sequence[Exponents], pivots: Sequence[Exponents], chosen: Sequence[Vector], check: Check
     ) -> Algebra | None:
         """The multiplication matrices over Q; `None` where a rewriting rule holds modulo the prime only."""
         check()
@@ -235,7 +229,7 @@ class _Rows:
         return Algebra(self.ring, tuple(matrices), one)
 
 
-def _terms(polynomial: Polynomial) -> list[tuple[Monomial, fmpq]]:
+def _terms(polynomial: Polynomial) -> list[tuple[Exponents, fmpq]]:
     return [(tuple(map(int, m)), c) for m, c in polynomial.terms()]
 
 
@@ -243,7 +237,7 @@ def _divides_a_denominator(prime: int, vectors: Sequence[Vector]) -> bool:
     return any(int(c.q) % prime == 0 for vector in vectors for c in vector.values())
 
 
-def _modular(vectors: Sequence[Vector], columns: Sequence[Monomial], prime: int) -> nmod_mat:
+def _modular(vectors: Sequence[Vector], columns: Sequence[Exponents], prime: int) -> nmod_mat:
     place = {m: j for j, m in enumerate(columns)}
     entries = [0] * (len(vectors) * len(columns))
     for r, vector in enumerate(vectors):
@@ -253,7 +247,7 @@ def _modular(vectors: Sequence[Vector], columns: Sequence[Monomial], prime: int)
     return nmod_mat(len(vectors), len(columns), entries, prime)
 
 
-def _solved(chosen: Sequence[Vector], pivots: Sequence[Monomial], targets: Sequence[Monomial]) -> fmpq_mat:
+def _solved(chosen: Sequence[Vector], pivots: Sequence[Exponents], targets: Sequence[Exponents]) -> fmpq_mat:
     """What each pivot monomial is, up to sign, in the target monomials, by the independent rows."""
     if not pivots or not targets:
         return fmpq_mat(len(pivots), len(targets))

@@ -11,15 +11,11 @@ from dataclasses import dataclass
 
 from flint import fmpq, fmpq_mat
 
+from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.elimination.monomial_ideals import divides
-from singsym.polynomials import Polynomial, Ring
+from singsym.polynomials import Exponents, Polynomial, Ring
 
-Monomial = tuple[int, ...]
 Check = Callable[[], None]
-
-
-class NotZeroDimensional(ValueError):
-    """Raised where finitely many complex points are expected and there are infinitely many."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +38,7 @@ class Algebra:
 # -- multiplication matrices -------------------------------------------------------------------------
 
 
-def standard_monomials(leading: Sequence[Monomial], size: int) -> list[Monomial]:
+def standard_monomials(leading: Sequence[Exponents], size: int) -> list[Exponents]:
     """The monomials in `size` variables divisible by no leading one; raises `NotZeroDimensional` if infinite.
 
     >>> standard_monomials([(2, 0), (0, 1)], 2)
@@ -53,8 +49,8 @@ def standard_monomials(leading: Sequence[Monomial], size: int) -> list[Monomial]
             raise NotZeroDimensional(
                 f"no leading monomial is a power of variable {i}: infinitely many points"
             )
-    found: list[Monomial] = []
-    layer: set[Monomial] = {(0,) * size}
+    found: list[Exponents] = []
+    layer: set[Exponents] = {(0,) * size}
     while layer:
         layer = {t for t in layer if not any(divides(m, t) for m in leading)}
         found.extend(sorted(layer, key=degrevlex))
@@ -76,8 +72,8 @@ def quotient_algebra(ring: Ring, basis: Sequence[Polynomial], check: Check = lam
     position = {m: i for i, m in enumerate(standard)}
     count = len(standard)
     matrices = tuple(fmpq_mat(count, count) for _ in range(size))
-    forms: dict[Monomial, fmpq_mat] = {}
-    images: dict[Monomial, list[tuple[int, int]]] = {}
+    forms: dict[Exponents, fmpq_mat] = {}
+    images: dict[Exponents, list[tuple[int, int]]] = {}
     for j, b in enumerate(standard):
         for i in range(size):
             images.setdefault((*b[:i], b[i] + 1, *b[i + 1 :]), []).append((i, j))
@@ -105,7 +101,7 @@ def quotient_algebra(ring: Ring, basis: Sequence[Polynomial], check: Check = lam
     return Algebra(ring, matrices, one)
 
 
-def _step_down(t: Monomial, forms: dict[Monomial, fmpq_mat]) -> tuple[int, Monomial]:
+def _step_down(t: Exponents, forms: dict[Exponents, fmpq_mat]) -> tuple[int, Exponents]:
     for i, e in enumerate(t):
         if e:
             rest = (*t[:i], e - 1, *t[i + 1 :])
@@ -114,7 +110,7 @@ def _step_down(t: Monomial, forms: dict[Monomial, fmpq_mat]) -> tuple[int, Monom
     raise ValueError(f"{t} is no border monomial: the basis is not a reduced Groebner basis in degrevlex")
 
 
-def degrevlex(m: Monomial) -> tuple[int, Monomial]:
+def degrevlex(m: Exponents) -> tuple[int, Exponents]:
     """The key by which monomials are sorted in the degree reverse lexicographic order."""
     return sum(m), tuple(-e for e in reversed(m))
 

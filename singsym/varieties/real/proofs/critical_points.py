@@ -22,13 +22,14 @@ from singsym.effort import chance
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Budget, Undecided, current
 from singsym.effort.verdict import noted_if_true
+from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.elimination.ideal import Ideal
 from singsym.minors.determinant import minors
 from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
 from singsym.varieties.decomposition import Component, decompose
 from singsym.varieties.purity import PurePiece, pure_or_whole
 from singsym.varieties.real.points.exact_point import RealPoint
-from singsym.varieties.real.points.finite_sets import NotZeroDimensional, pinned, real_points
+from singsym.varieties.real.points.finite_sets import pinned, real_points
 from singsym.varieties.real.points.intervals import jacobian
 
 _CENTRES = 3

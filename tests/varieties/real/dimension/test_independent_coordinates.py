@@ -8,7 +8,7 @@ import pytest
 
 from singsym.elimination import engines
 from singsym.elimination.ideal import Ideal
-from singsym.polynomials import Polynomial, Ring
+from singsym.polynomials import Equations, Ring
 from singsym.varieties.real.dimension import independent_coordinates
 from singsym.varieties.real.dimension.independent_coordinates import are_dependent, is_missed
 from singsym.varieties.real.system import RealSystem
@@ -17,7 +17,6 @@ pytestmark = pytest.mark.engines
 
 R = Ring(("x", "y", "z", "w"))
 x, y, z, w = R.gens
-Equations = tuple[Polynomial, ...]
 
 
 def least(system: RealSystem) -> int:

@@ -8,11 +8,12 @@ import pytest
 
 from singsym.effort.budget import Budget, Undecided
 from singsym.elimination import engines
+from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.elimination.engines.registry import msolve, singular
 from singsym.elimination.memo import forget
 from singsym.polynomials import AlgebraicConstant, Polynomial, Ring
 from singsym.varieties.real.points import finite_sets
-from singsym.varieties.real.points.finite_sets import Ideal, NotZeroDimensional, real_points, solve
+from singsym.varieties.real.points.finite_sets import Ideal, parametrized, real_points
 from singsym.varieties.real.points.macaulay_algebra import quotient_algebra_over
 from singsym.varieties.real.points.parametrization import reconstruct
 
@@ -65,7 +66,7 @@ def katsura(n: int) -> list[Polynomial]:
 # real solutions of katsura-n as in the PHCpack and SymbolicData collections
 @pytest.mark.parametrize(("n", "count"), [(2, 4), (3, 6), (4, 12), (5, 16), (6, 32)])
 def test_katsura(n, count):
-    assert solve(katsura(n)).minimal.degree() == 2**n
+    assert parametrized(katsura(n)).minimal.degree() == 2**n
     assert len(real_points(katsura(n))) == count
 
 
@@ -166,7 +167,7 @@ def stewart_gough(seed: int) -> list[Polynomial]:
 def test_stewart_gough_has_forty_poses():
     equations = stewart_gough(1)
     with engines.use():
-        assert solve(equations).minimal.degree() == 40
+        assert parametrized(equations).minimal.degree() == 40
         points = real_points(equations)
     boxes = msolve.real_boxes(equations, equations[0].ring)
     assert len(points) == len(boxes) > 0
@@ -180,10 +181,10 @@ def test_points_that_were_checked_modulo_primes_only_are_not_proven(monkeypatch)
     monkeypatch.setattr(finite_sets, "_CAPS", (1, 1, 1))
     monkeypatch.setattr(finite_sets, "_EXACT_COST", 0)
     with engines.use():
-        assert solve(equations).certainty == "proven"
+        assert parametrized(equations).certainty == "proven"
         forget()
         monkeypatch.setattr(finite_sets, "_PROOF_COST", 0)
-        assert solve(equations).certainty == "modular"
+        assert parametrized(equations).certainty == "modular"
 
 
 def test_hard_equations_over_easy_ones_agree_with_the_whole_basis(linkage):
