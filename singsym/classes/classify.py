@@ -39,7 +39,7 @@ from singsym.classes.strata.search import Exploration, Loci, SingularLoci, searc
 from singsym.classes.taxonomy.types import Defects
 from singsym.classes.unit_border import Border
 from singsym.conditions.conditions import Conditions, Factor, conditions
-from singsym.effort import chance
+from singsym.effort import chance, patience
 from singsym.effort.budget import Budget
 from singsym.effort.verdict import weakest
 from singsym.elimination import engines
@@ -50,14 +50,8 @@ from singsym.varieties.real.dimension.extent import union
 from singsym.varieties.real.system import RealSystem
 from singsym.varieties.unit_circles import Pair, unit_circles
 
-LOCUS_SECONDS = 10.0
-"""So long a locus is looked at of which a stratum is known."""
-BOUND_SECONDS = 6.0
-"""So long a bound is looked for where only a larger dimension would matter."""
 SHARES = (0.5, 0.8, 1.0)
 """So much of all time is used up when the search, what is real of the strata, and everything ends."""
-FIRST_SECONDS, SECOND_SECONDS = 1.0, 5.0
-"""So long each stratum is looked at before it is known whether more time is worth while."""
 
 
 @dataclass(frozen=True)
@@ -227,9 +221,9 @@ class _Work:
         """
         limits = self.limits
         tasks = [self._task(f, f.stratum.defects.delta) for f in found]
-        first = [replace(task, seconds=limits.part(FIRST_SECONDS)) for task in tasks]
+        first = [replace(task, seconds=limits.part(patience.FIRST_LOOK.work)) for task in tasks]
         realised = self.runner.map(realise, first, "real points", self.ends.pieces)
-        self._look_again(tasks, realised, limits.part(SECOND_SECONDS), "real points, second look")
+        self._look_again(tasks, realised, limits.part(patience.SECOND_LOOK.work), "real points, second look")
         self._look_again(tasks, realised, limits.seconds, "real points, at length", most=1)
         return realised
 
@@ -275,7 +269,7 @@ class _Work:
         again = [
             replace(
                 tasks[i],
-                seconds=seconds if least[i] <= 1 else self.limits.part(BOUND_SECONDS),
+                seconds=seconds if least[i] <= 1 else self.limits.part(patience.LARGER_PART.work),
                 known=least[i] if least[i] > 1 else None,
                 seen=least[i] > 1 and seen[i],
             )
@@ -316,7 +310,7 @@ class _Work:
             replace(
                 self._task(self._whole(factors[i][1]), None),
                 most=singular.at_most,
-                seconds=self.limits.seconds if known[i] is None else self.limits.part(LOCUS_SECONDS),
+                seconds=self.limits.seconds if known[i] is None else self.limits.part(patience.LOCUS.work),
             )
             for i in left
         ]

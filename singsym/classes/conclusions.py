@@ -16,7 +16,7 @@ from singsym.classes.strata.search import Exploration
 from singsym.classes.taxonomy.steps import excluded_in, found_in
 from singsym.classes.taxonomy.types import SingularityClass, SingularityType, feasible_classes
 from singsym.conditions.conditions import Conditions, Factor
-from singsym.effort import chance
+from singsym.effort import chance, patience
 from singsym.effort.attempts import attempt
 from singsym.effort.verdict import Certainty, Verdict, unnoted, weakest
 from singsym.elimination.ideal import Ideal
@@ -25,8 +25,6 @@ from singsym.polynomials import Polynomial
 from singsym.varieties.real.dimension.extent import EMPTY, Extent, union
 from singsym.varieties.real.numerical.sampling import is_large
 
-MEMBERSHIP_SECONDS = 2.0
-"""So long it is waited for that a stratum lies in a locus as a whole."""
 MOST_TRIED = 4
 MOST_FREEDOMS = 2
 NOT_COUNTED = f"components of curves are counted for n <= {MOST_FREEDOMS}, and not within inequalities"
@@ -166,7 +164,7 @@ def _may_vanish(polynomial: Polynomial, piece: Piece) -> bool:
 
 def _vanishes(polynomial: Polynomial, piece: Piece) -> bool:
     """Whether a polynomial is proven to vanish on a piece, as a member of its ideal."""
-    with attempt("membership", MEMBERSHIP_SECONDS), unnoted() as seen:
+    with attempt("membership", patience.LOCUS_HOLDS_PIECE.work), unnoted() as seen:
         return Ideal(polynomial.ring, piece.basis).contains(polynomial) and weakest(*seen) == "proven"
     return False
 

@@ -22,6 +22,7 @@ from collections.abc import Sequence
 from singsym.classes.result import ClassResult, Piece, SpacePiece
 from singsym.classes.taxonomy.types import SingularityType
 from singsym.conditions.conditions import Conditions
+from singsym.effort import patience
 from singsym.effort.attempts import attempt
 from singsym.effort.verdict import unnoted, weakest
 from singsym.elimination.ideal import Ideal
@@ -32,9 +33,6 @@ from singsym.varieties.real.dimension.extent import union
 from singsym.varieties.real.points.intervals import jacobian
 from singsym.varieties.real.proofs.emptiness import is_empty_over_reals
 from singsym.varieties.real.system import RealSystem
-
-SECONDS = 5.0
-"""So long the dimensions of lemma 2 are waited for."""
 
 
 def configuration_space(
@@ -104,7 +102,7 @@ def _with_parameters(conditions: Conditions) -> str:
     space = conditions.equation.space
     equations = tuple(f for f in space.equations if f)
     matrix = PolynomialMatrix.of(space.ring, jacobian(equations, space.ring.names))
-    with attempt("whether a space is smooth", SECONDS):
+    with attempt("whether a space is smooth", patience.SMOOTHNESS.work):
         minors = tuple(minor for _, _, minor in maximal_minors(matrix))
         system = RealSystem(
             space.ring, (*equations, *minors), space.exclusions, space.positive, space.nonnegative
@@ -122,7 +120,7 @@ def _is_complete_intersection(conditions: Conditions) -> bool:
     if len(equation.matrix.rows) != equation.N:
         return False
     usual = equation.n + len(space.parameters)
-    with attempt("the dimensions of the loop equations", SECONDS), unnoted() as seen:
+    with attempt("the dimensions of the loop equations", patience.SMOOTHNESS.work), unnoted() as seen:
         if Ideal(space.ring, space.equations).dimension > usual:
             return False
         for label in ("5", "4"):

@@ -53,6 +53,38 @@ SECOND_OPINION = Patience(20.0, "an answer that nobody confirms is modular")
 RESIDUES = Patience(3.0, "what takes so long modulo a prime is not tried over Q")
 SPLITTING = Patience(10.0, "a piece is not proven prime")
 
+# the search for strata
+MEMBERSHIP = Patience(2.0, "a minor is not proven to vanish on a patch, which is split", is_proof=True)
+IRREDUCIBLE = Patience(3.0, "a patch counts as reducible")
+QUICK_EMPTINESS = Patience(1.0, "a patch waits as a branch of its own")
+SHORT_EMPTINESS = Patience(5.0, "a part without known points is split further")
+HASTY_EMPTINESS = Patience(10.0, "the same where primes will do")
+PATIENT_EMPTINESS = Patience(20.0, "the same in a second look, over Q")
+EMPTINESS = Patience(30.0, "a part without known points is decomposed")
+
+# what is real of a stratum
+FIRST_LOOK = Patience(1.0, "a second look, where more may be said")
+SECOND_LOOK = Patience(5.0, "undecided, or a last look where its class is not known to be large")
+LARGER_PART = Patience(6.0, "the dimension of the class is open from above")
+POINT = Patience(10.0, "the next numerical point is tried")
+POINT_SEARCH = Patience(15.0, "the system is decomposed")
+CHOICE = Patience(1.0, "the equations are taken as they are")
+EXTREMA = Patience(2.0, "a sign is not proven")
+
+# bounds of dimensions
+BOUND_BY_TOWERS = Patience(0.8, "values of joints are tried")
+BOUND_BY_JOINTS = Patience(5.0, "values of coordinates are tried")
+BOUND_BY_VALUES = Patience(10.0, "hyperplanes are tried")
+BOUND_BY_HYPERPLANES = Patience(10.0, "no bound")
+BOUND_PROOF = Patience(3.0, "the bound stays modular")
+DIMENSION = Patience(20.0, "the set is decomposed")
+HYPERPLANE_CUTS = Patience(10.0, "the dimension is not found by cuts")
+
+# what is said of loci and of the space
+LOCUS = Patience(10.0, "a locus is as large as the stratum known inside, at least")
+LOCUS_HOLDS_PIECE = Patience(2.0, "a piece is not seen to lie in a locus")
+SMOOTHNESS = Patience(5.0, "whether the space is smooth is undecided")
+
 
 @contextmanager
 def patiently() -> Iterator[None]:

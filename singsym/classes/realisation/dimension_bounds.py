@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from singsym.classes.strata.patches import patches, unsplit
+from singsym.effort import patience
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import current
 from singsym.effort.verdict import Certainty, unnoted, weakest
@@ -32,12 +33,6 @@ from singsym.varieties.real.points.finite_sets import real_points
 from singsym.varieties.real.proofs.critical_points import dropped
 from singsym.varieties.real.system import RealSystem
 
-TOWER_SECONDS = 0.8
-"""So long variables are eliminated in turn, to prove a bound from above."""
-PROOF_SECONDS = 3.0
-"""So long a Groebner basis is waited for that proves a bound from above."""
-CUT_SECONDS = 10.0
-"""So long random hyperplanes modulo primes are waited for, where there is no such proof."""
 POINTS = 40
 """So many numerical points are looked at for parts of a larger dimension."""
 LARGEST_DENOMINATOR = 360
@@ -80,13 +75,13 @@ def bound_above(system: RealSystem, dimension: int, beside: int = 0) -> Bound | 
     (None, Bound(dimension=2, certainty='proven'))
     """
     ring, equations, seems = system.ring, system.closed_equations, None
-    with attempt("a bound of a dimension", CUT_SECONDS), unnoted():
+    with attempt("a bound of a dimension", patience.BOUND_BY_HYPERPLANES.work), unnoted():
         seems = seems_at_most(ring, equations, dimension + beside)
         if not seems and system.exclusions:
             seems = seems_at_most(*_off_exclusions(system), dimension + beside)
     if seems is False:
         return None
-    with attempt("a proof of a bound", PROOF_SECONDS), unnoted() as seen:
+    with attempt("a proof of a bound", patience.BOUND_PROOF.work), unnoted() as seen:
         found = Ideal(ring, equations).dimension - beside
         if found <= dimension and (weakest(*seen) == "proven" or seems is None):
             return Bound(dimension, weakest(*seen))
@@ -95,7 +90,7 @@ def bound_above(system: RealSystem, dimension: int, beside: int = 0) -> Bound | 
 
 def is_bounded(system: RealSystem, dimension: int, beside: int = 0) -> bool:
     """Whether a bound is proven by eliminating variables in turn, which is quick where it comes to an end."""
-    with attempt("a bound of a dimension", TOWER_SECONDS):
+    with attempt("a bound of a dimension", patience.BOUND_BY_TOWERS.work):
         equations, nonzero = system.closed_equations, system.nonzero
         return is_dimension_at_most(system.ring, equations, nonzero, dimension + beside)
     return False

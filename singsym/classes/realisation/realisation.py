@@ -26,6 +26,7 @@ from singsym.classes.strata.branches import Found
 from singsym.classes.strata.occurrence import is_proven_empty, restricted
 from singsym.classes.strata.patches import Patch, unsplit
 from singsym.classes.strata.reflections import image
+from singsym.effort import patience
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Budget, Undecided
 from singsym.effort.verdict import Certainty, Verdict, certainties, weakest
@@ -48,13 +49,6 @@ from singsym.varieties.unit_circles import Pair
 
 SEARCHES = 300
 """Random starts in the search for a point of a set given by independent equations."""
-
-MISSING_SECONDS = 5.0
-"""So long random values of joints are tried, to see that a stratum is no open part of the space."""
-INDEPENDENCE_SECONDS = 10.0
-"""So long random values of each choice of coordinates are tried, to bound a dimension."""
-DIMENSION_SECONDS = 20.0
-"""So long the dimension of a set that has a certified point is looked for."""
 
 
 @dataclass(frozen=True)
@@ -301,10 +295,10 @@ def _bound(system: RealSystem, dimension: int, task: RealTask) -> Bound | None:
     if is_bounded(chart.system, dimension, beside):
         return Bound(dimension)
     if task.most == dimension + 1 and task.coordinates:
-        with attempt("a bound of a dimension", MISSING_SECONDS):
+        with attempt("a bound of a dimension", patience.BOUND_BY_JOINTS.work):
             if are_missed(system.closed_equations, task.coordinates):
                 return Bound(dimension, "modular")
-    with attempt("a bound of a dimension", INDEPENDENCE_SECONDS):
+    with attempt("a bound of a dimension", patience.BOUND_BY_VALUES.work):
         if are_dependent(system, dimension, task.circles):
             return Bound(dimension, "modular")
     return bound_above(chart.system, dimension, beside)
@@ -312,7 +306,7 @@ def _bound(system: RealSystem, dimension: int, task: RealTask) -> Bound | None:
 
 def _cut(system: RealSystem) -> Cut | None:
     """The dimension by cuts where it is found in time."""
-    with attempt("the dimension of a set", DIMENSION_SECONDS):
+    with attempt("the dimension of a set", patience.DIMENSION.work):
         return dimension_by_cuts(system)
     return None
 

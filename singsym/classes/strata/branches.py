@@ -11,9 +11,6 @@ from functools import cached_property
 
 from singsym.classes.strata.ground import Ground, NotEvident
 from singsym.classes.strata.occurrence import (
-    PATIENT_SECONDS,
-    QUICK_SECONDS,
-    SHORT_SECONDS,
     is_proven_empty,
     points_on,
     restricted,
@@ -23,6 +20,7 @@ from singsym.classes.strata.patches import Patch, patches, unsplit
 from singsym.classes.strata.ranks import Least, RankProblem, Stratum, ranked
 from singsym.classes.strata.reflections import IDENTITY, Reflection, compose, image, keeps, representatives
 from singsym.classes.taxonomy.types import SingularityType
+from singsym.effort import patience
 from singsym.effort.budget import Budget, Undecided
 from singsym.effort.verdict import Certainty, certainties, weakest
 from singsym.elimination import engines
@@ -221,7 +219,7 @@ class _Exploring:
             return
         deciding = _deciding_variable(system) if self.branch.splits < MOST_SPLITS else None
         if not alone:
-            if not is_proven_empty(system, QUICK_SECONDS, modular=False):
+            if not is_proven_empty(system, patience.QUICK_EMPTINESS.work, modular=False):
                 self._postpone(patch, images)
         elif deciding is not None:
             if self.tried or not _is_soon_empty(system):
@@ -306,8 +304,8 @@ def _image_of(found: Found, reflection: Reflection) -> Found:
 def _is_soon_empty(system: RealSystem) -> bool:
     """Whether a part that can be split further is proven empty; primes will do unless there is patience."""
     if engines.proof_patience() == 1:
-        return is_proven_empty(system, SHORT_SECONDS)
-    return is_proven_empty(system, PATIENT_SECONDS, modular=False)
+        return is_proven_empty(system, patience.SHORT_EMPTINESS.work)
+    return is_proven_empty(system, patience.PATIENT_EMPTINESS.work, modular=False)
 
 
 def _deciding_variable(system: RealSystem) -> Polynomial | None:

@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from singsym.classes.strata.patches import Patch, is_combination
+from singsym.effort import patience
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Undecided
 from singsym.effort.verdict import unnoted, weakest
-from singsym.elimination import engines
 from singsym.elimination.ideal import Ideal
 from singsym.kinematics.nonzero import Certifier
 from singsym.kinematics.placement import ConfigurationSpace
@@ -22,11 +22,6 @@ from singsym.varieties.decomposition import Component, decompose
 from singsym.varieties.real.numerical.sampling import Points, is_large
 from singsym.varieties.real.proofs.vector_charts import Cartesian
 from singsym.varieties.real.system import RealSystem
-
-MEMBERSHIP_SECONDS = 2.0
-"""So long a Groebner basis of a patch as a whole is waited for, to prove that minors vanish on it."""
-IRREDUCIBLE_SECONDS = 3.0
-"""So long it is waited for that a patch is proven irreducible."""
 
 
 class NotEvident(Undecided):
@@ -57,7 +52,7 @@ class Ground:
         if self.system is None:
             return None
         chart = Cartesian.of(self.system)
-        return chart, chart.based(MEMBERSHIP_SECONDS * engines.proof_patience())
+        return chart, chart.based(patience.MEMBERSHIP.work)
 
     @property
     def equations(self) -> tuple[Polynomial, ...]:
@@ -78,7 +73,7 @@ class Ground:
     @cached_property
     def _prime(self) -> Ideal | None:
         """The ideal of the patch in the variables that are not solved for, where it is soon proven prime."""
-        with attempt("whether a part is irreducible", IRREDUCIBLE_SECONDS), unnoted() as seen:
+        with attempt("whether a part is irreducible", patience.IRREDUCIBLE.work), unnoted() as seen:
             components = decompose(self.patch.rest, ring=self.patch.ring)
             if len(components) == 1 and components[0].prime and weakest(*seen) == "proven":
                 return components[0].ideal

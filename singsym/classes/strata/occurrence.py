@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from singsym.classes.strata.patches import Patch
+from singsym.effort import patience
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import current
 from singsym.effort.verdict import Certainty, note, unnoted, weakest
@@ -18,14 +19,6 @@ from singsym.varieties.real.points.finite_sets import real_points
 from singsym.varieties.real.proofs.emptiness import is_empty_over_reals, is_excluded
 from singsym.varieties.real.proofs.vector_charts import Cartesian
 from singsym.varieties.real.system import RealSystem
-
-EMPTINESS_SECONDS = 10.0
-"""So long a proof is waited for that a part has no zero at all, in a first look."""
-REAL_EMPTINESS_SECONDS = 30.0
-"""So long a proof is waited for that it has no real one."""
-SHORT_SECONDS, PATIENT_SECONDS, QUICK_SECONDS = 5.0, 20.0, 1.0
-"""So long either is waited for where a part can be split further, in a first look and in a patient one, and
-where it is one of several parts."""
 
 
 def restricted(system: RealSystem, patch: Patch) -> RealSystem:
@@ -51,7 +44,7 @@ def points_on(system: RealSystem, patch: Patch, count: int = 3) -> Points:
 
 
 def is_proven_empty(
-    system: RealSystem, seconds: float = REAL_EMPTINESS_SECONDS, *, modular: bool = True
+    system: RealSystem, seconds: float = patience.EMPTINESS.seconds, *, modular: bool = True
 ) -> bool:
     """Whether it is shown in so many seconds that there is no real point.
 
@@ -62,9 +55,9 @@ def is_proven_empty(
     chart = Cartesian.of(system)
 
     def no_complex_point() -> bool:
-        most = min(seconds, EMPTINESS_SECONDS) if hasty else seconds
+        most = min(seconds, patience.HASTY_EMPTINESS.work) if hasty else seconds
         with attempt("a proof that there is no complex point", most * longer):
-            return chart.is_empty(QUICK_SECONDS if modular and hasty else None)
+            return chart.is_empty(patience.QUICK_EMPTINESS.work if modular and hasty else None)
         return False
 
     def no_real_point() -> bool:

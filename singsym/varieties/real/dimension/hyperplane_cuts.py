@@ -16,7 +16,7 @@ from fractions import Fraction
 
 from flint import fmpq
 
-from singsym.effort import chance
+from singsym.effort import chance, patience
 from singsym.effort.attempts import attempt
 from singsym.effort.verdict import Certainty, note
 from singsym.elimination.engines import EngineUnavailable
@@ -30,8 +30,6 @@ from singsym.varieties.real.points.finite_sets import real_points
 from singsym.varieties.real.system import RealSystem
 from singsym.varieties.splitting import factor_equations, irreducible_factors, used_ring
 
-CUT_SECONDS = 10.0
-"""So long the points of one cut are waited for."""
 CUTS = 6
 TRIES = 40
 
@@ -143,7 +141,7 @@ def _cut_point(system: RealSystem, ideal: Ideal, dimension: int) -> Witness | No
         for values in frozen_values(system, system.equations, sample, dimension):
             done += 1
             points: tuple[RealPoint, ...] = ()
-            with attempt("cutting by hyperplanes", CUT_SECONDS):
+            with attempt("cutting by hyperplanes", patience.HYPERPLANE_CUTS.work):
                 points = real_points(_cut(ideal, values, dimension))
             for point in points:
                 if system.admits(point) and has_rank(ideal.generators, point, len(ring.names) - dimension):

@@ -15,6 +15,7 @@ from itertools import chain
 from math import floor, log, prod
 from typing import TYPE_CHECKING
 
+from singsym.effort import patience
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Budget, Undecided, current
 from singsym.effort.chaos import strikes
@@ -32,7 +33,6 @@ if TYPE_CHECKING:
 
 # denominators tried for the frozen coordinates, nice values first
 _DENOMINATORS = (1, 2, 8, 64)
-_SOLVE_SECONDS = 10.0
 # up to this many solutions by Bezout's bound a point is solved for exactly before a box is tried
 _FEW_SOLUTIONS = 64
 
@@ -268,7 +268,7 @@ def _certified(
     points: list[RealPoint] = []
     with (
         suppress(NotZeroDimensional),
-        attempt("the search for a real point", _SOLVE_SECONDS, part_of=budget) as own,
+        attempt("the search for a real point", patience.POINT.work, part_of=budget) as own,
     ):
         points = frozen_points(ring, equations, values, own)
     order = sorted(points, key=lambda p: sum((a - b) ** 2 for a, b in zip(p.floats, sample, strict=True)))

@@ -18,7 +18,7 @@ from functools import partial
 from math import comb, prod
 from random import Random
 
-from singsym.effort import chance
+from singsym.effort import chance, patience
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Budget, Undecided, current
 from singsym.effort.verdict import noted_if_true
@@ -33,7 +33,6 @@ from singsym.varieties.real.points.finite_sets import pinned, real_points
 from singsym.varieties.real.points.intervals import jacobian
 
 _CENTRES = 3
-_CHOOSING_SECONDS = 1.0
 _MOST_MINORS = 2000
 _MOST_PRODUCTS = 10**12
 
@@ -257,7 +256,7 @@ def _few_equations(piece: PurePiece, known: tuple[Polynomial, ...]) -> tuple[Pol
     for chosen in (known, tuple(shortest[: 2 * piece.codimension])):
         if not 0 < 2 * len(chosen) < len(generators):
             continue
-        with attempt("the equations of a piece", _CHOOSING_SECONDS):
+        with attempt("the equations of a piece", patience.CHOICE.work):
             if noted_if_true(partial(_generate, chosen, generators)):
                 return chosen
     return generators

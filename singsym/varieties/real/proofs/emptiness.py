@@ -11,6 +11,7 @@ from dataclasses import replace
 
 from flint import fmpz_poly
 
+from singsym.effort import patience
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Budget, Undecided, current
 from singsym.effort.chance import BY_PRIMES
@@ -28,7 +29,6 @@ from singsym.varieties.real.proofs.critical_points import component_samples
 from singsym.varieties.real.proofs.real_consequences import real_consequences
 from singsym.varieties.real.system import RealSystem
 
-_SEARCH_SECONDS = 15.0
 CONTRADICTED = "sums of squares bound the variables, and an equation or a condition fails within the bounds"
 
 
@@ -108,7 +108,7 @@ def _component_verdict(
     if not all(component.vanishes(f) for f in forced):
         return _decided(replace(system, equations=(*component.generators, *forced)), budget, seed, tries)
     found = None
-    with attempt("the search for a real point", _SEARCH_SECONDS, part_of=budget) as own:
+    with attempt("the search for a real point", patience.POINT_SEARCH.work, part_of=budget) as own:
         found = find_witness(piece, seed=seed, tries=tries, dimension=component.dimension, budget=own)
     if found is not None:
         return Verdict.no(found.certainty, witness=found)
@@ -206,6 +206,6 @@ def _crossed(component: Component, system: RealSystem, budget: Budget) -> list[P
 def _is_crossed(component: Component, border: Polynomial, budget: Budget) -> bool:
     """Whether a border may have real points on a piece."""
     system = RealSystem(component.ideal.ring, (*component.generators, border))
-    with attempt("real points where a condition changes", _SEARCH_SECONDS, part_of=budget) as own:
+    with attempt("real points where a condition changes", patience.POINT_SEARCH.work, part_of=budget) as own:
         return not _decided(system, own, 0, 5).is_yes
     return True

@@ -13,7 +13,7 @@ from math import cos, sin
 
 from flint import fmpz_poly
 
-from singsym.effort import chance
+from singsym.effort import chance, patience
 from singsym.effort.attempts import attempt
 from singsym.effort.verdict import Certainty, note, unnoted
 from singsym.elimination.ideal import Ideal
@@ -25,8 +25,6 @@ from singsym.varieties.splitting import used_ring
 from singsym.varieties.unit_circles import Pair, circle
 
 MOST_TERMS, MOST_CIRCLES = 60, 8
-SECONDS = 2.0
-"""So long the extreme values of one polynomial are looked for."""
 _TRIES = 100
 
 
@@ -82,7 +80,7 @@ def _searched(f: Polynomial, circles: tuple[Pair, ...]) -> tuple[tuple[Polynomia
     small = used_ring(ring, equations)
     ideal = Ideal(small, tuple(map(small.convert, equations)))
     values = None
-    with attempt("extreme values", SECONDS), unnoted():
+    with attempt("extreme values", patience.EXTREMA.work), unnoted():
         values = relation(ideal.groebner_basis(), (small.convert(f),))
     if values is None:
         return (), "proven"
