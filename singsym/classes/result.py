@@ -310,8 +310,8 @@ def _open(what: str, found: Locus | ClassResult) -> Iterator[tuple[str, str]]:
         parts = "points" if found.dimension == 0 else "components"
         yield f"number of {parts} of {what}", found.open or found.verdict.reason or "it was not counted"
     if found.verdict.is_yes and isinstance(found, ClassResult):
-        for piece in found.unsure:
-            yield f"occurrence of a part of {what}", piece.verdict.reason
+        for reason in dict.fromkeys(piece.verdict.reason for piece in found.unsure):
+            yield f"occurrence of parts of {what}", reason
 
 
 def _is_uncounted(found: Locus | ClassResult) -> bool:

@@ -17,6 +17,7 @@ from singsym.classes.classify import classify
 from singsym.classes.conclusions import NOT_COUNTED, remarks_of
 from singsym.classes.result import Classification, ClassResult, Locus, counts
 from singsym.classes.solve import solve
+from singsym.classes.taxonomy.types import SingularityType
 from singsym.conditions.conditions import Conditions, conditions
 from singsym.effort.chance import use_seed
 from singsym.effort.verdict import Verdict
@@ -98,6 +99,19 @@ def test_an_open_dimension_of_a_locus(form: str) -> None:
 def test_a_number_of_points_that_is_open(form: str) -> None:
     text = shown_as_open(with_class(points=None, components=None, open=LATE), form)
     assert "number of points of class 1" in text
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_parts_of_a_class_that_may_have_no_point(form: str) -> None:
+    """Its locus is said with the class, and once that this is open, although its numbers are known."""
+    first = dead_centres().of(SingularityType.RI | SingularityType.IO).pieces[0]
+    part = replace(first, verdict=Verdict.undecided(LATE), witnesses=())
+    found = with_class(unsure=(part, part))
+    assert list(found.open_questions()) == [("occurrence of parts of class 1", LATE)]
+    text = shown_as_open(found, form)
+    assert "occurrence of parts of class 1" in text
+    if form in ("text", "latex", "report"):
+        assert "perhaps also" in text
 
 
 def test_a_number_that_is_missing_without_a_word_is_open() -> None:
