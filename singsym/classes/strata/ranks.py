@@ -6,13 +6,13 @@ Source: Zlatanov, Fenton, Benhabib (1998), sections 2.3 and 3.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from singsym.classes.strata.block_rank import block_rank, numerical_minor, union_of_loci
 from singsym.classes.strata.ground import Ground
 from singsym.classes.taxonomy.types import Defects, SingularityType
 from singsym.minors.rank import simplest_blocks
-from singsym.polynomials import Polynomial, PolynomialMatrix
+from singsym.polynomials import Equations, Polynomial, PolynomialMatrix
 from singsym.varieties.decomposition import Component
 from singsym.varieties.real.system import RealSystem
 
@@ -130,48 +130,63 @@ def ranked(
     {(y,): {'L_O': 1}, (x,): {'L_I': 1}}
     """
     other = {"L_O": "L_I", "L_I": "L_O"}[first]
-    defect = {"L": 0, "L_p": 0}
-    highest = dict.fromkeys(_BELOW, True)
-    known = dict.fromkeys(_BELOW, 0) | dict(least or {})
-    loci: dict[tuple[Polynomial, ...], dict[str, int]] = {}
+    ranks = _Ranks(problem, ground, feasible, dict(least or {}))
+    ranks.examine(first)
+    if ranks.defect[first]:
+        ranks.examine("L_p")
+        ranks.examine("L")
+    if not ranks.defect["L"] and not ranks.defect["L_p"]:
+        possible = (_OWN[first], _BOTH) if ranks.defect[first] else (SingularityType(0), _OWN[other])
+        if set(possible) <= set(evident):
+            return Ranked(None, ranks.loci)
+    before = {locus: dict(there) for locus, there in ranks.loci.items()}
+    ranks.examine(other)
+    defect = ranks.defect
+    defects = Defects(defect["L"], defect["L_p"], defect["L_I"], defect["L_O"])
+    matters = other in relevant(defects) or not ranks.highest[other]
+    loci = ranks.loci if matters else before
+    found = Stratum(ground.equations, defects, tuple(loci), ground.component)
+    return Ranked(None if defects.types in evident else found, loci)
 
-    def examine(name: str) -> None:
-        # the matrix is taken apart off these, so that nothing follows for its rank on them
-        earlier = frozenset(loci)
-        certifier = ground.certifier(feasible, loci)
-        matrix = problem.matrices[name].map(ground.patch.restrict)
-        parts = simplest_blocks(matrix, certifier, problem.outputs(name))
-        full = problem.full(name) - parts.constant
+
+@dataclass
+class _Ranks:
+    """What is found out of the four ranks on a ground, matrix by matrix.
+
+    least: how far at least each is below full rank; defect: how far it is, off the loci; highest: whether it
+        is proven nowhere higher; loci: of lower rank, with how far at least the matrices are below full rank
+        there.
+    """
+
+    problem: RankProblem
+    ground: Ground
+    feasible: RealSystem
+    least: dict[str, int]
+    defect: dict[str, int] = field(default_factory=lambda: {"L": 0, "L_p": 0})
+    highest: dict[str, bool] = field(default_factory=lambda: dict.fromkeys(_BELOW, True))
+    loci: dict[Equations, dict[str, int]] = field(default_factory=dict)
+
+    def examine(self, name: str) -> None:
+        """The rank of one matrix; it is taken apart off the loci known before, and says nothing on them."""
+        ground, earlier = self.ground, frozenset(self.loci)
+        certifier = ground.certifier(self.feasible, self.loci)
+        matrix = self.problem.matrices[name].map(ground.patch.restrict)
+        parts = simplest_blocks(matrix, certifier, self.problem.outputs(name))
+        full = self.problem.full(name) - parts.constant
         starts = [numerical_minor(block, ground.samples) for block in parts.blocks]
         most = sum(min(block.shape) for block in parts.blocks)
-        known[name] = max(full - most, *(known[other] for other in _BELOW[name]))
-        largest = sum(len(rows) for rows, _ in starts) == full - known[name]
+        self.least[name] = max(full - most, *(self.least.get(other, 0) for other in _BELOW[name]))
+        largest = sum(len(rows) for rows, _ in starts) == full - self.least[name]
         found = [
             block_rank(block, ground, certifier, start, largest)
             for block, start in zip(parts.blocks, starts, strict=True)
         ]
-        defect[name] = full - sum(block.rank for block in found)
-        highest[name] = all(block.highest for block in found)
+        self.defect[name] = full - sum(block.rank for block in found)
+        self.highest[name] = all(block.highest for block in found)
         for block, whole in zip(found, parts.blocks, strict=True):
             lower = full - (most - min(whole.shape) + block.rank - 1)
             alternatives, exact = union_of_loci(block.minors, certifier)
             for locus in alternatives:
-                there = loci.setdefault(locus, {})
+                there = self.loci.setdefault(locus, {})
                 if block.exact and exact and lower > 0 and locus not in earlier:
                     there[name] = max(lower, there.get(name, 0))
-
-    examine(first)
-    if defect[first]:
-        examine("L_p")
-        examine("L")
-    if not defect["L"] and not defect["L_p"]:
-        possible = (_OWN[first], _BOTH) if defect[first] else (SingularityType(0), _OWN[other])
-        if set(possible) <= set(evident):
-            return Ranked(None, loci)
-    before = {locus: dict(there) for locus, there in loci.items()}
-    examine(other)
-    defects = Defects(defect["L"], defect["L_p"], defect["L_I"], defect["L_O"])
-    if other not in relevant(defects) and highest[other]:
-        loci = before
-    found = Stratum(ground.equations, defects, tuple(loci), ground.component)
-    return Ranked(None if defects.types in evident else found, loci)
