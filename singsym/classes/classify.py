@@ -38,7 +38,8 @@ from singsym.classes.strata.reflections import image, reflections
 from singsym.classes.strata.search import Exploration, Loci, SingularLoci, search
 from singsym.classes.taxonomy.types import Defects
 from singsym.classes.unit_border import Border
-from singsym.conditions.conditions import Conditions, Factor, conditions
+from singsym.conditions.conditions import Conditions, conditions
+from singsym.conditions.factor import Factor
 from singsym.effort import chance, patience
 from singsym.effort.budget import Budget
 from singsym.effort.verdict import weakest

@@ -15,7 +15,8 @@ from singsym.classes.result import ClassResult, Locus, Piece, conditions_latex
 from singsym.classes.strata.search import Exploration
 from singsym.classes.taxonomy.steps import excluded_in, found_in
 from singsym.classes.taxonomy.types import SingularityClass, SingularityType, feasible_classes
-from singsym.conditions.conditions import Conditions, Factor
+from singsym.conditions.conditions import Conditions
+from singsym.conditions.factor import Factor
 from singsym.effort import chance, patience
 from singsym.effort.attempts import attempt
 from singsym.effort.verdict import Certainty, Verdict, unnoted, weakest

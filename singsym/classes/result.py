@@ -11,12 +11,12 @@ from html import escape
 from typing import Any
 
 from singsym.classes.taxonomy.types import Defects, SingularityClass, SingularityType
-from singsym.conditions.conditions import polynomial_latex
 from singsym.effort.verdict import Verdict
 from singsym.kinematics.reduction import Reduction
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import Mechanism
 from singsym.polynomials import Equations, Polynomial
+from singsym.polynomials.latex import polynomial_latex
 from singsym.varieties.real.dimension.extent import UNKNOWN, Extent
 
 

@@ -22,7 +22,8 @@ from singsym.classes.result import (
     SpacePiece,
     conditions_latex,
 )
-from singsym.conditions.conditions import Factor, conditions
+from singsym.conditions.conditions import conditions
+from singsym.conditions.factor import Factor
 from singsym.conditions.named_quantities import PointNames
 from singsym.kinematics.placement import ConfigurationSpace
 from singsym.kinematics.velocity import VelocityEquation, velocity_equation

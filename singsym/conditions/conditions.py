@@ -5,16 +5,14 @@ Source: Zlatanov, Fenton, Benhabib (1998), the propositions of section 2.3, and 
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 from math import prod
 from typing import TYPE_CHECKING
 
-import sympy
-
-from singsym.conditions.named_quantities import GeometricName, PointNames
+from singsym.conditions.factor import Factor
+from singsym.conditions.named_quantities import PointNames
 from singsym.kinematics.nonzero import Certifier
 from singsym.kinematics.reduction import Reduction, reduce
 from singsym.minors.blocks import block_triangular
@@ -34,9 +32,6 @@ LARGEST_DETERMINANT = 7
 
 MOST_TERMS = 50000
 """Determinants with more terms on the way are left as determinants."""
-
-SHORT = 6
-"""A factor before a determinant's polynomial is cut, in LaTeX, after so many terms."""
 
 _MATRIX = {"4": "L_I", "5": "L_O", "vii": "L_I", "viii": "L_O", "iii": "L_p", "vi": "L"}
 _COMPARED = {"i": ("L_O", "L_p"), "ii": ("L_I", "L_p"), "iv": ("L_I", "L"), "v": ("L_O", "L")}
@@ -61,100 +56,6 @@ class Comparison:
     lower: str
     upper: str
     offset: int
-
-
-@dataclass(frozen=True)
-class Factor:
-    """A polynomial whose vanishing is one way to satisfy a condition, with its name if it has one."""
-
-    polynomial: Polynomial
-    multiplicity: int = 1
-    name: GeometricName | None = None
-
-    @property
-    def words(self) -> str:
-        """What its vanishing says of the named points; empty where it was not recognised."""
-        return self.name.quantity.words if self.name else ""
-
-    def latex(self, longest: int = 24) -> str:
-        """The polynomial, cut where it is long; what a named quantity is on the configuration space."""
-        if self.name is None or self._multiple is not None:
-            shown = polynomial_latex(self._multiple or self.polynomial, longest)
-            return f"{self.name.quantity.latex} = {shown}" if self.name else shown
-        scale = polynomial_latex(self.name.scale, SHORT)
-        if len(self.name.scale) > 1:
-            scale = rf"\left({scale}\right)"
-        root = rf"\sqrt{{{self.name.radicand}}}" if self.name.radicand != 1 else ""
-        outer = r"\, ".join(part for part in (scale, root) if part not in ("", "1"))
-        return rf"{self.name.quantity.latex} = {outer}({polynomial_latex(self.polynomial, longest)})"
-
-    def text(self, longest: int | None = None) -> str:
-        r"""The same as plain text; longest: terms before polynomials are cut, None for no cut.
-
-        >>> from singsym.conditions.named_quantities import Quantity
-        >>> from singsym.polynomials import Ring
-        >>> R = Ring(("x", "y"))
-        >>> x, y = R.gens
-        >>> name = GeometricName(Quantity(r"u \cdot v", "u.v", "axes u and v perpendicular"), R.constant(3))
-        >>> print(Factor(x + y, name=name), Factor(x + y, name=name).latex())
-        u.v = 3*(x + y)  (axes u and v perpendicular) u \cdot v = 3(x + y)
-        """
-        if self.name is None or self._multiple is not None:
-            shown = _text(self._multiple or self.polynomial, longest)
-            return f"{self.name.quantity.text} = {shown}" if self.name else shown
-        scale = _text(self.name.scale, longest)
-        if len(self.name.scale) > 1:
-            scale = f"({scale})"
-        root = f"sqrt({self.name.radicand})" if self.name.radicand != 1 else ""
-        outer = [part for part in (scale, root) if part not in ("", "1")]
-        shown = _text(self.polynomial, longest)
-        whole = "*".join((*outer, f"({shown})" if len(self.polynomial) > 1 else shown))
-        return f"{self.name.quantity.text} = {whole}"
-
-    @cached_property
-    def _multiple(self) -> Polynomial | None:
-        """What the named quantity is as one polynomial, where that is as short as a product."""
-        if self.name is None or self.name.radicand != 1 or not self.name.scale.is_constant:
-            return None
-        unit = abs(self.name.scale.constant) == 1
-        return self.polynomial * self.name.scale if unit or len(self.polynomial) == 1 else None
-
-    def __str__(self) -> str:
-        return f"{self.text()}  ({self.words})" if self.name else self.text()
-
-
-def _text(polynomial: Polynomial, longest: int | None) -> str:
-    return str(polynomial) if longest is None else polynomial.short_text(longest)
-
-
-_INDEXED = re.compile(r"(?P<letter>[a-zA-Z])(?:_(?P<index>\w+)|(?P<other>[0-9A-Z]\w*))")
-_COORDINATE = re.compile(r"(?P<index>[A-Z]\w*)(?P<other>)(?P<letter>[xyz])")
-
-
-def symbol_latex(name: str) -> str:
-    r"""A variable in LaTeX: a letter with an index, a coordinate with its point; others as SymPy prints them.
-
-    >>> print(symbol_latex("c_A1"), symbol_latex("x_B"), symbol_latex("B1x"), symbol_latex("d3"))
-    c_{\mathrm{A1}} x_{B} x_{\mathrm{B1}} d_{3}
-    """
-    found = _COORDINATE.fullmatch(name) or _INDEXED.fullmatch(name)
-    if found is None:
-        return str(sympy.latex(sympy.Symbol(name)))
-    letter, index = found["letter"], (found["index"] or found["other"]).replace("_", ",")
-    plain = len(index) == 1 or index.isdigit()
-    return f"{letter}_{{{index}}}" if plain else f"{letter}_{{\\mathrm{{{index}}}}}"
-
-
-@lru_cache(maxsize=10_000)
-def polynomial_latex(polynomial: Polynomial, longest: int = 24) -> str:
-    """A polynomial in LaTeX, cut after some terms with the number of those left out."""
-    ring = polynomial.ring
-    names = {sympy.Symbol(name): symbol_latex(name) for name in ring.names}
-    if len(polynomial) <= longest:
-        return str(sympy.latex(ring.to_sympy(polynomial), symbol_names=names))
-    first = ring.to_sympy(ring.from_dict(dict(polynomial.terms()[:longest])))
-    rest = len(polynomial) - longest
-    return rf"{sympy.latex(first, symbol_names=names)} + \cdots\ (\text{{{rest} more terms}})"
 
 
 @dataclass(frozen=True)

@@ -10,14 +10,15 @@ import re
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
-from singsym.conditions.conditions import polynomial_latex, symbol_latex
 from singsym.output.pieces import Group, extent_of, filled, grouped, known_by, loop_equations, moving, varying
+from singsym.polynomials.latex import polynomial_latex, symbol_latex
 
 if TYPE_CHECKING:
     from singsym.classes.result import Classification, ClassResult, Configuration, Locus, SpacePiece
     from singsym.classes.solve import Solution
     from singsym.classes.taxonomy.types import Table
-    from singsym.conditions.conditions import Condition, Conditions, Factor
+    from singsym.conditions.conditions import Condition, Conditions
+    from singsym.conditions.factor import Factor
     from singsym.kinematics.velocity import Column, VelocityEquation
     from singsym.mechanism.model import Mechanism
     from singsym.polynomials import Polynomial, PolynomialMatrix

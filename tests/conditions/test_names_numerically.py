@@ -15,7 +15,8 @@ import pytest
 import sympy
 from sympy.parsing.sympy_parser import parse_expr
 
-from singsym.conditions.conditions import Factor, conditions, symbol_latex
+from singsym.conditions.conditions import conditions
+from singsym.conditions.factor import Factor
 from singsym.conditions.named_quantities import PointNames
 from singsym.kinematics.nonzero import Certifier
 from singsym.kinematics.placement import ConfigurationSpace
@@ -23,6 +24,7 @@ from singsym.kinematics.velocity import velocity_equation
 from singsym.mechanism import load
 from singsym.mechanism.library import names
 from singsym.polynomials import AlgebraicConstant, Ring
+from singsym.polynomials.latex import symbol_latex
 
 _spec = importlib.util.spec_from_file_location(
     "numerically", Path(__file__).with_name("test_conditions_numerically.py")

@@ -10,8 +10,8 @@ from html import escape
 
 import sympy
 
-from singsym.conditions.conditions import symbol_latex
 from singsym.polynomials import Polynomial, PolynomialMatrix
+from singsym.polynomials.latex import symbol_latex
 
 LONGEST = 40
 """Polynomials with more terms are cut, with the number of terms left out."""
