@@ -20,16 +20,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from singsym.classes.result import ClassResult, Piece, SpacePiece
-from singsym.classes.taxonomy.types import SingularityType
+from singsym.classes.taxonomy.types import Defects, SingularityType
 from singsym.conditions.conditions import Conditions
 from singsym.effort import patience
 from singsym.effort.attempts import attempt
-from singsym.effort.verdict import unnoted, weakest
+from singsym.effort.verdict import Verdict, unnoted, weakest
 from singsym.elimination.ideal import Ideal
 from singsym.mechanism.model import Mechanism
 from singsym.minors.determinant import maximal_minors
 from singsym.polynomials import PolynomialMatrix
-from singsym.varieties.real.dimension.extent import union
+from singsym.varieties.real.dimension.extent import Extent, union
 from singsym.varieties.real.points.intervals import jacobian
 from singsym.varieties.real.proofs.emptiness import is_empty_over_reals
 from singsym.varieties.real.system import RealSystem
@@ -43,7 +43,8 @@ def configuration_space(
 ) -> tuple[SpacePiece, ...]:
     """The pieces of the configuration space, those of singular configurations alone included.
 
-    Without regular configurations, the classes of the largest dimension are the pieces.
+    Without regular configurations, the classes of the largest dimension are the pieces.  Where a class may be
+    as large, a last piece, undecided, says so.
     """
     smooth, why = _is_smooth(mechanism, conditions, classes)
     kept = ", ".join(mechanism.translating) if mechanism else ""
@@ -69,7 +70,25 @@ def configuration_space(
             extent = union(p.extent for p in inside)
             remark = f"every configuration of this piece is singular: {result.types}"
             found.append(SpacePiece(extent, smooth, largest.defects, largest.verdict, largest.basis, remark))
+    if found and (open_ones := [c for c in classes if _may_be_a_piece(c, least)]):
+        found.append(_perhaps(open_ones, smooth))
     return tuple(found)
+
+
+def _may_be_a_piece(result: ClassResult, least: int) -> bool:
+    """Whether a class is not known to be as large as a piece of the space, nor to be smaller."""
+    if result.verdict.is_no or result.extent.at_least >= least:
+        return False
+    return result.extent.at_most is None or result.extent.at_most >= least
+
+
+def _perhaps(results: Sequence[ClassResult], smooth: str) -> SpacePiece:
+    """Classes that may be pieces of the space by themselves: nothing is known of these pieces."""
+    reasons = dict.fromkeys(c.extent.open or c.verdict.reason for c in results)
+    named = "; ".join(str(c.types) for c in results)
+    verdict = Verdict.undecided("; ".join(reasons))
+    remark = f"perhaps a piece of singular configurations alone: {named}"
+    return SpacePiece(Extent(open=verdict.reason), smooth, Defects(0, 0, 0, 0), verdict, (), remark)
 
 
 def _is_smooth(
