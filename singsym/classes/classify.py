@@ -135,7 +135,8 @@ def classify_inside(
             if executor is not None:
                 stack.enter_context(executor)
         runner = Runner(executor, user_cache() if cache else None)
-        work = _Work(mechanism, conditions(equation, reduce(equation)), runner, limits or Limits())
+        found, limits = conditions(equation, reduce(equation)), limits or Limits()
+        work = _Work(mechanism, found, runner, limits, Ends.of(limits.total))
         return work.classification(started)
 
 
@@ -147,6 +148,11 @@ class Ends:
     pieces: Budget
     all: Budget
 
+    @classmethod
+    def of(cls, total: float | None) -> Ends:
+        """Those of so many seconds from now."""
+        return cls(*(Budget(None if total is None else share * total) for share in SHARES))
+
 
 @dataclass
 class _Work:
@@ -156,12 +162,7 @@ class _Work:
     conditions: Conditions
     runner: Runner
     limits: Limits
-
-    @cached_property
-    def ends(self) -> Ends:
-        """When each part of the work has to end, from the first look at this."""
-        total = self.limits.total
-        return Ends(*(Budget(None if total is None else share * total) for share in SHARES))
+    ends: Ends
 
     @property
     def equation(self) -> VelocityEquation:
@@ -187,7 +188,6 @@ class _Work:
         return RankProblem(matrices, self.conditions.reduction.constant, self.equation.N, self.equation.n)
 
     def classification(self, started: float) -> Classification:
-        search_ends = self.ends.search
         problem = self.problem()
         root = Branch(
             problem,
@@ -197,7 +197,7 @@ class _Work:
             seconds=self.limits.seconds,
             memory_mb=self.limits.memory_mb,
         )
-        explored = search(root, self.runner, self._singular_loci(), search_ends)
+        explored = search(root, self.runner, self._singular_loci(), self.ends.search)
         pieces = self._with_components(explored.found, self._pieces(explored.found))
         loci = self._loci(explored, pieces)
         classes = classes_of(explored, pieces, self.equation.n, self._counting)
@@ -272,7 +272,7 @@ class _Work:
                 tasks[i],
                 seconds=seconds if least[i] <= 1 else self.limits.part(patience.LARGER_PART.work),
                 known=least[i] if least[i] > 1 else None,
-                seen=least[i] > 1 and seen[i],
+                seen=seen[i],
             )
             for i in doubtful
         ]

@@ -165,11 +165,9 @@ class _Exact(Codec):
     type: type
 
     def write(self, value: Any, writer: Writer) -> Any:
-        """The JSON of a value of this type."""
         return self._same(value)
 
     def read(self, data: Any, reader: Reader) -> Any:
-        """The value that JSON stands for; raises `ValueError` for anything else."""
         return self._same(data)
 
     def _same(self, value: Any) -> Any:
@@ -182,13 +180,11 @@ class _Integer(Codec):
     """Whole numbers of any length."""
 
     def write(self, value: Any, writer: Writer) -> Any:
-        """The JSON of a value of this type."""
         if type(value) is not int:
             raise Mismatch(f"{value!r} is no int")
         return value if -_WORD <= value < _WORD else hex(value)
 
     def read(self, data: Any, reader: Reader) -> Any:
-        """The value that JSON stands for; raises `ValueError` for anything else."""
         value = int(data, 16) if type(data) is str else data
         if type(value) is not int or self.write(value, Writer()) != data:
             raise Mismatch(f"{data!r} is no int")
@@ -199,13 +195,11 @@ class _Float(Codec):
     """Floats, exactly; whole numbers may stand for them."""
 
     def write(self, value: Any, writer: Writer) -> Any:
-        """The JSON of a value of this type."""
         if type(value) not in (float, int):
             raise Mismatch(f"{value!r} is no float")
         return float(value).hex()
 
     def read(self, data: Any, reader: Reader) -> Any:
-        """The value that JSON stands for; raises `ValueError` for anything else."""
         if type(data) is not str:
             raise Mismatch(f"{data!r} is no float")
         return float.fromhex(data)
@@ -226,11 +220,9 @@ class _Choice(Codec):
     choices: tuple[Any, ...]
 
     def write(self, value: Any, writer: Writer) -> Any:
-        """The JSON of a value of this type."""
         return self._same(value)
 
     def read(self, data: Any, reader: Reader) -> Any:
-        """The value that JSON stands for; raises `ValueError` for anything else."""
         return self._same(data)
 
     def _same(self, value: Any) -> Any:
@@ -246,13 +238,11 @@ class _Member(Codec):
     type: type[Enum]
 
     def write(self, value: Any, writer: Writer) -> Any:
-        """The JSON of a value of this type."""
         if type(value) is not self.type:
             raise Mismatch(f"{value!r} is no {self.type.__name__}")
         return value.value
 
     def read(self, data: Any, reader: Reader) -> Any:
-        """The value that JSON stands for; raises `ValueError` for anything else."""
         value = self.type(data)
         if type(data) is not type(value.value) or data != value.value:
             raise Mismatch(f"{data!r} is no value of {self.type.__name__}")
@@ -267,7 +257,6 @@ class _Either(Codec):
     optional: bool
 
     def write(self, value: Any, writer: Writer) -> Any:
-        """The JSON of a value of this type."""
         if value is None and self.optional:
             return None
         for place, member in enumerate(self.members):
@@ -276,7 +265,6 @@ class _Either(Codec):
         raise Mismatch(f"{value!r} is of no type of a union")
 
     def read(self, data: Any, reader: Reader) -> Any:
-        """The value that JSON stands for; raises `ValueError` for anything else."""
         if data is None and self.optional:
             return None
         place, inside = _list(data, 2)
@@ -292,13 +280,11 @@ class _Sequence(Codec):
     item: Codec
 
     def write(self, value: Any, writer: Writer) -> Any:
-        """The JSON of a value of this type."""
         if type(value) is not tuple:
             raise Mismatch(f"{value!r} is no tuple")
         return tuple(self.item.write(part, writer) for part in value)
 
     def read(self, data: Any, reader: Reader) -> Any:
-        """The value that JSON stands for; raises `ValueError` for anything else."""
         return tuple(self.item.read(part, reader) for part in _list(data))
 
 
@@ -309,13 +295,11 @@ class _Row(Codec):
     items: tuple[Codec, ...]
 
     def write(self, value: Any, writer: Writer) -> Any:
-        """The JSON of a value of this type."""
         if type(value) is not tuple or len(value) != len(self.items):
             raise Mismatch(f"{value!r} is no tuple of {len(self.items)}")
         return tuple(item.write(part, writer) for item, part in zip(self.items, value, strict=True))
 
     def read(self, data: Any, reader: Reader) -> Any:
-        """The value that JSON stands for; raises `ValueError` for anything else."""
         parts = zip(self.items, _list(data, len(self.items)), strict=True)
         return tuple(item.read(part, reader) for item, part in parts)
 
@@ -327,13 +311,11 @@ class _Table(Codec):
     pairs: Codec
 
     def write(self, value: Any, writer: Writer) -> Any:
-        """The JSON of a value of this type."""
         if not isinstance(value, Mapping):
             raise Mismatch(f"{value!r} is no mapping")
         return self.pairs.write(tuple(value.items()), writer)
 
     def read(self, data: Any, reader: Reader) -> Any:
-        """The value that JSON stands for; raises `ValueError` for anything else."""
         pairs = self.pairs.read(data, reader)
         if len(found := dict(pairs)) != len(pairs):
             raise Mismatch("a key comes twice")

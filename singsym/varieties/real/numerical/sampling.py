@@ -15,10 +15,9 @@ from singsym.varieties.real.system import RealSystem
 
 NEAR = 1e-3
 """Smaller values of exclusions over their largest terms are taken for zero: as at a fourfold root."""
-ROUNDING = 1e-9
-"""So far below zero, over their largest terms, inequalities are taken to hold."""
 ROUNDING = 1e-8
-"""So much of the largest term of a polynomial may be left at a numerical zero."""
+"""So much of the largest term of a polynomial may be left at a numerical zero; inequalities so far below zero
+are taken to hold."""
 STARTS = (4, 56)
 """So many random starts are tried together for numerical points of a set, until there are enough."""
 POLISHING = 15
