@@ -56,6 +56,8 @@ SPLITTING = Patience(10.0, "a piece is not proven prime")
 # the search for strata
 MEMBERSHIP = Patience(2.0, "a minor is not proven to vanish on a patch, which is split", is_proof=True)
 IRREDUCIBLE = Patience(3.0, "a patch counts as reducible")
+POINTS_BY_MODULES = Patience(20.0, "finitely many points are searched as any other part")
+FIRST_MODULE = Patience(2.0, "a module without parents is solved on a curve, where its equations have one")
 QUICK_EMPTINESS = Patience(1.0, "a patch waits as a branch of its own")
 SHORT_EMPTINESS = Patience(5.0, "a part without known points is split further")
 HASTY_EMPTINESS = Patience(10.0, "the same where primes will do")

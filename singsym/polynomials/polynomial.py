@@ -48,7 +48,7 @@ class Polynomial:
     [(x + y, 1), (x - y, 1)]
     """
 
-    __slots__ = ("_degrees", "_hash", "_integer", "ring", "value")
+    __slots__ = ("_degrees", "_hash", "_integer", "_terms", "ring", "value")
 
     ring: Ring
     value: fmpq_mpoly
@@ -56,6 +56,7 @@ class Polynomial:
     _degrees: tuple[int, ...]
     _hash: int
     _integer: fmpz_mpoly
+    _terms: tuple[tuple[int, int, tuple[int, ...]], ...]
 
     def __init__(self, ring: Ring, value: fmpq_mpoly) -> None:
         object.__setattr__(self, "ring", ring)
@@ -273,28 +274,29 @@ class Polynomial:
         Works in any commutative arithmetic that mixes with ints: `float`, `complex`, `Fraction`,
         `fmpq`, `arb`, `acb`, `mpmath` and NumPy arrays.  Coefficients enter as p/q.
         """
-        total: Any = 0
-        powers: list[dict[int, Any]] = [{} for _ in values]
-        for exponents, c in self.terms():
-            term: Any = None
-            for i, e in enumerate(exponents):
-                if e:
-                    power = powers[i].get(e)
-                    if power is None:
-                        power = values[i]
-                        for _ in range(e - 1):
-                            power = power * values[i]
-                        powers[i][e] = power
-                    term = power if term is None else term * power
-            p, q = int(c.p), int(c.q)
-            if term is None:
-                term = values[0] * 0 + p if values else p
-            elif p != 1:
+        total: Any = None
+        for p, q, places in self._table:
+            term: Any = values[places[0]] if places else values[0] * 0 + p if values else p
+            for i in places[1:]:
+                term = term * values[i]
+            if places and p != 1:
                 term = term * p
             if q != 1:
                 term = term / q
-            total = term if isinstance(total, int) and total == 0 else total + term
-        return total
+            total = term if total is None else total + term
+        return 0 if total is None else total
+
+    @property
+    def _table(self) -> tuple[tuple[int, int, tuple[int, ...]], ...]:
+        """Numerator, denominator and the places of the variables of each term, each as often as it is there."""
+        try:
+            return self._terms
+        except AttributeError:
+            places = (tuple(i for i, e in enumerate(m) for _ in range(e)) for m, _ in self.terms())
+            numbers = ((int(c.p), int(c.q)) for _, c in self.terms())
+            table = tuple((p, q, own) for (p, q), own in zip(numbers, places, strict=True))
+            object.__setattr__(self, "_terms", table)
+            return self._terms
 
     # -- display ---------------------------------------------------------------------------------
 

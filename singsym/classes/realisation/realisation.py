@@ -6,7 +6,7 @@ Hauenstein, Sottile, ACM Trans. Math. Softw. 38 (2012) 28.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import chain
@@ -25,7 +25,7 @@ from singsym.classes.result import Piece
 from singsym.classes.strata.branches import Found
 from singsym.classes.strata.occurrence import is_proven_empty, restricted
 from singsym.classes.strata.patches import Patch, unsplit
-from singsym.classes.strata.reflections import image
+from singsym.classes.strata.reflections import IDENTITY, image
 from singsym.effort import patience
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Budget, Undecided
@@ -37,6 +37,7 @@ from singsym.varieties.real.dimension.extent import EMPTY, Extent
 from singsym.varieties.real.dimension.hyperplane_cuts import Cut, dimension_by_cuts
 from singsym.varieties.real.dimension.independent_coordinates import are_dependent
 from singsym.varieties.real.dimension.real_dimension import component_dimension, independent, real_dimension
+from singsym.varieties.real.modules.module_points import comes_apart, module_points
 from singsym.varieties.real.numerical.sampling import numerical_codimension
 from singsym.varieties.real.points.boxed_point import BoxPoint
 from singsym.varieties.real.points.certified_point import Witness, find_witness
@@ -154,7 +155,7 @@ def _realised(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, 
     if component.dimension == 0:
         with certainties() as seen:
             solutions = real_points(stratum.equations)
-        return _finite(piece, solutions, system, stratum.elsewhere, weakest(*seen))
+        return _finite(piece, _admitted(solutions, system, stratum.elsewhere), weakest(*seen))
     with certainties() as seen:
         found = component_dimension(component, system)
     return _counted(*_exactly(piece, *found, weakest(*seen)), system, stratum.elsewhere)
@@ -162,12 +163,12 @@ def _realised(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, 
 
 def _images(piece: Piece, points: CertifiedPoints, task: RealTask) -> Iterator[Piece]:
     """The piece with its configurations for each image; a point that an earlier image has is left out."""
-    seen: list[RealPoint] = []
+    seen: list[RealPoint | BoxPoint] = []
     for reflection in task.found.images:
         own = []
         for point in (p.reflect(reflection) for p in points):
-            if piece.points is not None and isinstance(point, RealPoint):
-                if any(point.coincides(other) for other in seen):
+            if piece.points is not None:
+                if any(_are_one(point, other) for other in seen):
                     continue
                 seen.append(point)
             own.append(point)
@@ -189,9 +190,9 @@ def _given(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, Cer
     dimension = len(system.ring.names) - len(system.closed_equations)
     if dimension <= 0:
         with certainties() as seen:
-            solutions = _finitely_many(system)
-        if solutions is not None:
-            return _finite(piece, solutions, system, elsewhere, weakest(*seen))
+            points = _finitely_many(system, task)
+        if points is not None:
+            return _finite(piece, points, weakest(*seen))
     codimension = numerical_codimension(system)
     patch = unsplit(system.closed_equations, system.ring)
     if codimension is None and is_proven_empty(restricted(system, patch)):
@@ -204,14 +205,32 @@ def _given(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, Cer
     return _counted(*_singular(piece, system, patch), system, elsewhere)
 
 
-def _finitely_many(system: RealSystem) -> Sequence[RealPoint] | None:
-    """All real zeros, off the exclusions where there are too many on them; None where they are not found."""
-    for zeros in (lambda: real_points(system.closed_equations), lambda: points_off_exclusions(system)):
-        with suppress(NotZeroDimensional), attempt("finitely many points", share=1 / 3):
-            return zeros()
-        if not system.exclusions:
-            break
+def _finitely_many(system: RealSystem, task: RealTask) -> CertifiedPoints | None:
+    """All points of a set: by modules, exactly, or off the exclusions where there are too many on them.
+
+    None where they are not found, or cannot be told from those of an image.
+    """
+    equations, images = system.closed_equations, task.found.images
+    ways: list[tuple[Callable[[], CertifiedPoints], float]] = [(lambda: real_points(equations), 1 / 3)]
+    if comes_apart(equations):
+        ways.insert(0, (lambda: module_points(equations), 1 / 2))
+    if system.exclusions:
+        ways.append((lambda: tuple(points_off_exclusions(system)), 1 / 3))
+    for zeros, share in ways:
+        with suppress(NotZeroDimensional), attempt("finitely many points", share=share):
+            points = _admitted(zeros(), system, task.found.stratum.elsewhere)
+            boxed = [p for p in points if isinstance(p, BoxPoint)]
+            mirrored = [p.reflect(r) for r in images if r != IDENTITY for p in boxed]
+            [p.coincides(q) for p in mirrored for q in boxed]
+            return points
     return None
+
+
+def _admitted(
+    solutions: Iterable[RealPoint | BoxPoint], system: RealSystem, elsewhere: tuple[Equations, ...]
+) -> CertifiedPoints:
+    """The solutions of the equations that are points of the set, and not elsewhere."""
+    return tuple(p for p in solutions if system.admits(p) and not _lies_in(p, elsewhere))
 
 
 def _bounded(
@@ -311,27 +330,33 @@ def _cut(system: RealSystem) -> Cut | None:
     return None
 
 
-def _lies_in(point: RealPoint, loci: tuple[Equations, ...]) -> bool:
+def _are_one(one: RealPoint | BoxPoint, two: RealPoint | BoxPoint) -> bool:
+    """Whether two points, found in the same way, are the same; raises `Undecided` where boxes do not tell."""
+    if isinstance(one, RealPoint) and isinstance(two, RealPoint):
+        return one.coincides(two)
+    return isinstance(one, BoxPoint) and isinstance(two, BoxPoint) and one.coincides(two)
+
+
+def _lies_in(point: RealPoint | BoxPoint, loci: tuple[Equations, ...]) -> bool:
     return any(all(point.sign(p) == 0 for p in locus) for locus in loci)
 
 
-def _finite(
-    piece: Piece,
-    solutions: Sequence[RealPoint],
-    system: RealSystem,
-    elsewhere: tuple[Equations, ...],
-    known: Certainty,
-) -> tuple[Piece, CertifiedPoints]:
-    """The points of a set; known: how it is that the solutions are all that there are, or may be in it."""
-    points = tuple(p for p in solutions if system.admits(p) and not _lies_in(p, elsewhere))
+def _finite(piece: Piece, points: CertifiedPoints, known: Certainty) -> tuple[Piece, CertifiedPoints]:
+    """A set of these points; known: how it is that they are all that there are, or may be in it."""
     if not points:
         verdict = Verdict.no(
             known, reason="none of finitely many complex solutions is real, feasible and new"
         )
         return replace(piece, verdict=verdict, extent=EMPTY, points=0, components=0), ()
     count = len(points)
-    extent = Extent(0, 0, known)
-    found = replace(piece, verdict=Verdict.yes(), extent=extent, points=count, components=count)
+    boxed = any(isinstance(p, BoxPoint) for p in points)
+    found = replace(
+        piece,
+        verdict=Verdict.yes("certified" if boxed else "proven"),
+        extent=Extent(0, 0, known),
+        points=count,
+        components=count,
+    )
     return found, points
 
 
@@ -369,7 +394,7 @@ def _counted(
     for point in samples:
         if not any(point.coincides(other) for other in distinct):
             distinct.append(point)
-    return _finite(piece, distinct, system, elsewhere, weakest(piece.extent.bounded, *seen))
+    return _finite(piece, _admitted(distinct, system, elsewhere), weakest(piece.extent.bounded, *seen))
 
 
 def _samples(system: RealSystem, away: Equations, borders: Equations) -> Iterator[RealPoint]:

@@ -9,6 +9,7 @@ from collections import Counter
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
+from singsym.classes.strata.finite_parts import defects_of_points
 from singsym.classes.strata.ground import Ground, NotEvident
 from singsym.classes.strata.occurrence import (
     is_proven_empty,
@@ -145,6 +146,8 @@ def _explored(branch: Branch) -> Explored:
     work = _Exploring(branch)
     try:
         with Budget(work=branch.seconds, memory_mb=branch.memory_mb):
+            if (known := _point_by_point(branch)) is not None:
+                return known
             whole = unsplit(branch.equations, branch.feasible.ring)
             system = restricted(branch.admitted, whole)
             if not points_on(system, whole, 1):
@@ -158,6 +161,17 @@ def _explored(branch: Branch) -> Explored:
     except Undecided as reason:
         work.undecided.append(str(reason))
     return Explored(tuple(work.found), tuple(work.following), tuple(work.undecided))
+
+
+def _point_by_point(branch: Branch) -> Explored | None:
+    """A branch of finitely many points with the same defects; `None` where it is not seen to be one."""
+    system = replace(branch.admitted, equations=branch.equations)
+    found = defects_of_points(branch.problem, system, dict(branch.least))
+    if found is None or len(found) > 1:
+        return None
+    own = [defects for defects in found if defects.types not in branch.evident]
+    strata = (Stratum(branch.equations, d, branch.away, elsewhere=branch.elsewhere) for d in own)
+    return Explored(tuple(part for s in strata for part in _apart(Found(branch.path, s, branch.images))))
 
 
 @dataclass

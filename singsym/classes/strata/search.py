@@ -71,6 +71,11 @@ class SingularLoci:
     passive: Loci | None = None
     mobility: Loci | None = None
 
+    def defects_on(self, locus: Equations) -> dict[str, int]:
+        """How far at least the matrices are below full rank on one of the loci."""
+        loci = {"L_I": self.inputs, "L_O": self.outputs, "L_p": self.passive, "L": self.mobility}
+        return {name: 1 for name, own in loci.items() if own is not None and locus in own}
+
 
 def search(
     root: Branch, runner: Runner, singular: SingularLoci | None = None, budget: Budget | None = None
@@ -138,7 +143,10 @@ def _started(root: Branch, singular: SingularLoci) -> tuple[list[Found], list[Br
         key=lambda side: sum(len(p) for locus in side[1] for p in locus),
     )
     ready = replace(root, first=first, evident=evident)
-    return found, [ready.within(locus, loci[:i], root.equations, {first: 1}) for i, locus in enumerate(loci)]
+    return found, [
+        ready.within(locus, loci[:i], root.equations, singular.defects_on(locus))
+        for i, locus in enumerate(loci)
+    ]
 
 
 def _evident_strata(root: Branch, singular: SingularLoci) -> Iterator[Found]:

@@ -98,7 +98,7 @@ def assemble(
 
 def _marked(system: System, samples: Samples, stars: Sequence[Star]) -> _Marked:
     size = len(system.ring.names)
-    points = _smooth_points(system, samples.points, stars)
+    points = _smooth_points(system, samples, stars)
     first, repeated = _distinct(points)
     ends = as_balls(samples.ends, size)
     parts = [first, *(s.gates for s in stars), ends]
@@ -117,17 +117,19 @@ def _marked(system: System, samples: Samples, stars: Sequence[Star]) -> _Marked:
     return _Marked(marks, balls, count, np.concatenate(vague), tuple(nodes), repeated)
 
 
-def _smooth_points(system: System, points: Sequence[RealPoint], stars: Sequence[Star]) -> Balls:
+def _smooth_points(system: System, samples: Samples, stars: Sequence[Star]) -> Balls:
     """The samples outside all stars; raises `Undecided` where one is neither proven smooth nor in a star."""
-    balls = as_balls(points, len(system.ring.names))
+    points = samples.points
+    balls = as_balls((*points, *samples.boxed), len(system.ring.names))
     inside = np.zeros(len(balls.mid), dtype=bool)
     for star in stars:
         if star.chart is not None:
             inside |= star.chart.holds(balls) if len(balls.mid) else inside
     regular = is_regular(system, balls)
     for k in map(int, np.flatnonzero(~regular & ~inside)):
-        if not any(s.chart is None and s.point.coincides(points[k]) for s in stars):
-            raise Undecided(f"the curve is too close to singular at {points[k]!r}")
+        exact = points[k] if k < len(points) else None
+        if exact is None or not any(s.chart is None and s.point.coincides(exact) for s in stars):
+            raise Undecided(f"the curve is too close to singular at {balls.mid[k]}")
     keep = regular & ~inside
     return Balls(balls.mid[keep], balls.rad[keep])
 

@@ -21,6 +21,7 @@ from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.minors.determinant import determinant
 from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
 from singsym.varieties.real.curves.arithmetic import EPSILON, Array, Balls
+from singsym.varieties.real.points.boxed_point import BoxPoint
 from singsym.varieties.real.points.exact_point import RealPoint
 from singsym.varieties.real.points.finite_sets import real_points
 
@@ -35,6 +36,7 @@ class Samples:
     """Real points of a curve that meet each of its components, and where it leaves every bounded set.
 
     points: all real zeros on the curve of the critical determinant of `objective` (singular points included).
+    boxed: smooth points that are found in another way.
     ends: the points at which `objective` has the value `level`, beyond which the curve runs off to infinity.
     """
 
@@ -42,6 +44,7 @@ class Samples:
     points: tuple[RealPoint, ...]
     ends: tuple[RealPoint, ...] = ()
     level: Fraction | None = None
+    boxed: tuple[BoxPoint, ...] = ()
 
 
 def points_on_components(equations: Sequence[Polynomial], seed: int, budget: Budget) -> Samples | None:
@@ -238,7 +241,7 @@ def level_above(objective: Polynomial, points: Sequence[RealPoint]) -> Fraction:
     return highest * 2 + 1
 
 
-def as_balls(points: Sequence[RealPoint], size: int) -> Balls:
+def as_balls(points: Sequence[RealPoint | BoxPoint], size: int) -> Balls:
     """Midpoints in doubles; `rad` bounds the 2-norm of the distance of the exact point, in every entry."""
     mid: Array = np.array([p.floats for p in points], dtype=float).reshape(len(points), size)
     rad = np.zeros_like(mid)

@@ -7,7 +7,7 @@ of exactly one arc.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -75,10 +75,13 @@ def chains(marks: Marks, tracks: dict[int, Track]) -> list[Chain]:
 
 
 def prove_chains(system: System, found: list[Chain], budget: Budget) -> list[Chain] | str:
-    """The same chains covered by proven tubes, with points put in where needed; a reason where it fails."""
+    """The same chains covered by proven tubes, with points put in where needed; a reason where it fails.
+
+    Tubes that a chain has already are kept where they are proven.
+    """
     polylines = [c.points for c in found]
     flags = [c.closed for c in found]
-    known: list[Tubes | None] = [None] * len(found)
+    known = [c.tubes for c in found]
     for round_ in range(_HALVINGS):
         budget.check("proof of the arcs of a curve")
         known = _prove_round(system, polylines, known)
@@ -143,6 +146,12 @@ def _halve(
         new_lines.append(np.insert(polyline, where + 1, part, axis=0))
         new_known.append(None if tubes is None else tubes.split(where))
     return new_lines, new_known
+
+
+def halved(system: System, chain: Chain, rows: np.ndarray) -> Chain:
+    """A chain with the segments of some of its tubes cut in two, to be proven again."""
+    (points,), (tubes,) = _halve(system, [chain.points], [chain.tubes], [rows])
+    return replace(chain, points=points, tubes=tubes)
 
 
 def contained(found: Sequence[Chain], points: Balls) -> tuple[np.ndarray, np.ndarray]:

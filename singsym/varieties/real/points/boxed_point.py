@@ -113,13 +113,36 @@ class BoxPoint:
             bits *= 2
         raise Undecided(f"the sign of {polynomial} at a boxed point: zero up to {_MOST_BITS} bits")
 
+    def coincides(self, other: BoxPoint) -> bool:
+        """Whether both are the same point, for solutions of the same equations.
+
+        Raises `Undecided` where the boxes of different equations' solutions cannot be told apart.
+        """
+        for bits in (64, 256, 1024):
+            one, two = self.refine(bits), other.refine(bits)
+            if not all(a.overlaps(b) for a, b in zip(one.box, two.box, strict=True)):
+                return False
+            wider = self if self.radius_bound >= other.radius_bound else other
+            finer = two if wider is self else one
+            inside = all(a.contains(b) for a, b in zip(wider.box, finer.box, strict=True))
+            if inside and self._normal == other._normal:
+                return True
+        raise Undecided("whether two boxed points are one")
+
+    @property
+    def _normal(self) -> frozenset[Polynomial]:
+        return frozenset(p.primitive() for p in self.equations)
+
     def __repr__(self) -> str:
         values = ", ".join(f"{name}={value}" for name, value in self.decimals(6).items())
         return f"BoxPoint({values})"
 
 
 def boxed_point(
-    ring: Ring, equations: Sequence[Polynomial], values: Mapping[str, Fraction], near: Sequence[float]
+    ring: Ring,
+    equations: Sequence[Polynomial],
+    values: Mapping[str, Fraction],
+    near: Sequence[float | Fraction],
 ) -> BoxPoint | None:
     """A solution near a numerical one, with these coordinates at rationals, by a Krawczyk test, or `None`.
 

@@ -168,6 +168,8 @@ class RealPoint:
         """Whether both are the same point of the same ring, decided exactly."""
         if self.ring.names != other.ring.names:
             raise ValueError(f"points of different rings, {self.ring!r} and {other.ring!r}")
+        if self == other:
+            return True
         if not all(a.overlaps(b) for a, b in zip(self.box, other.box, strict=True)):
             return False
         return all(_equal_coordinates(self, other, i) for i in range(len(self.ring.names)))

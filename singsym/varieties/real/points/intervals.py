@@ -9,10 +9,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from fractions import Fraction
+from functools import lru_cache
 
 from flint import arb, arb_mat, ctx, fmpq
 
-from singsym.polynomials import Polynomial
+from singsym.polynomials import Equations, Polynomial
 
 Box = tuple[arb, ...]
 
@@ -75,6 +76,11 @@ def sign_on_box(polynomial: Polynomial, box: Sequence[arb]) -> int:
 
 def jacobian(equations: Sequence[Polynomial], names: Sequence[str]) -> list[list[Polynomial]]:
     """The partial derivatives, one row an equation."""
+    return _jacobian(tuple(equations), tuple(names))
+
+
+@lru_cache(maxsize=256)
+def _jacobian(equations: Equations, names: tuple[str, ...]) -> list[list[Polynomial]]:
     return [[f.derivative(name) for name in names] for f in equations]
 
 

@@ -1,0 +1,106 @@
+"""Equations in block triangular form: small square systems that are solved one after the other.
+
+Source: Dulmage, Mendelsohn, Coverings of bipartite graphs, Canad. J. Math. 10 (1958) 517-534; Pothen, Fan,
+Computing the block triangular form of a sparse matrix, ACM Trans. Math. Softw. 16 (1990) 303-324.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import networkx as nx
+
+from singsym.polynomials.polynomial import Polynomial
+
+
+@dataclass(frozen=True)
+class Module:
+    """As many equations as unknowns, which cannot be solved in smaller steps.
+
+    parents: the other variables of the equations; they are unknowns of earlier modules, or given.
+    """
+
+    equations: tuple[Polynomial, ...]
+    unknowns: tuple[str, ...]
+    parents: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class BlockForm:
+    """Modules in an order in which they can be solved, and the equations that are left over.
+
+    free: the unknowns that no equation was left to determine.
+    """
+
+    modules: tuple[Module, ...]
+    left_over: tuple[Polynomial, ...]
+    free: tuple[str, ...]
+
+    def ancestors(self, module: Module) -> tuple[Module, ...]:
+        """The modules that have to be solved before this one, in order."""
+        needed = set(module.parents)
+        found: list[Module] = []
+        for other in reversed(self.modules[: self.modules.index(module)]):
+            if needed & set(other.unknowns):
+                needed |= set(other.parents)
+                found.append(other)
+        return tuple(reversed(found))
+
+
+def block_form(equations: Sequence[Polynomial], given: Collection[str] = ()) -> BlockForm:
+    """The modules of equations in all their variables but the given ones.
+
+    Where a choice is, equations that come first are matched first; those that find no unknown of their own
+    are left over.  Modules that could trade places come in the order of their first equations.
+
+    >>> from singsym.polynomials import Ring
+    >>> x, y, z = Ring(("x", "y", "z")).gens
+    >>> [m.unknowns for m in block_form((y * z - 1, x**2 - 2, x + y - 3)).modules]
+    [('x',), ('y',), ('z',)]
+    >>> block_form((x + y + z, x - y), given=("z",)).modules[0].unknowns
+    ('x', 'y')
+    """
+    names = {k: [n for n in p.variables if n not in given] for k, p in enumerate(equations)}
+    owner = _matching(names)
+    unknown_of = {k: name for name, k in owner.items()}
+    graph: Any = nx.DiGraph()
+    graph.add_nodes_from(unknown_of)
+    graph.add_edges_from(
+        (owner[name], k) for k in unknown_of for name in names[k] if name in owner and owner[name] != k
+    )
+    condensed: Any = nx.condensation(graph)
+    members = {c: sorted(data["members"]) for c, data in condensed.nodes(data=True)}
+    order = nx.lexicographical_topological_sort(condensed, key=lambda c: members[c][0])
+    modules = tuple(_module(equations, members[c], unknown_of) for c in order)
+    left_over = tuple(p for k, p in enumerate(equations) if k not in unknown_of)
+    everything = dict.fromkeys(name for own in names.values() for name in own)
+    return BlockForm(modules, left_over, tuple(name for name in everything if name not in owner))
+
+
+def _matching(names: dict[int, list[str]]) -> dict[str, int]:
+    """An equation for each of as many unknowns as possible, by augmenting paths (Kuhn)."""
+    owner: dict[str, int] = {}
+
+    def augment(k: int, seen: set[str]) -> bool:
+        for name in names[k]:
+            if name in seen:
+                continue
+            seen.add(name)
+            if name not in owner or augment(owner[name], seen):
+                owner[name] = k
+                return True
+        return False
+
+    for k in names:
+        augment(k, set())
+    return owner
+
+
+def _module(equations: Sequence[Polynomial], members: list[int], unknown_of: dict[int, str]) -> Module:
+    own = tuple(equations[k] for k in members)
+    ring = own[0].ring
+    unknowns = sorted((unknown_of[k] for k in members), key=ring.index)
+    used = {name for p in own for name in p.variables}
+    return Module(own, tuple(unknowns), tuple(n for n in ring.names if n in used and n not in unknowns))

@@ -1,0 +1,258 @@
+"""A curve solved module by module: from a circle upwards, each dyad a covering of two sheets.
+
+Source: coverings of curves, Forster, Lectures on Riemann Surfaces (1981), section 4, for real points: two
+sheets where the dyad's discriminant is positive, none where it is negative, joined where it changes sign.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import sqrt
+
+import numpy as np
+from flint import arb
+
+from singsym.effort.budget import Budget, Undecided
+from singsym.polynomials import Equations, Polynomial, Ring
+from singsym.polynomials.block_form import Module, block_form
+from singsym.varieties.real.curves.arithmetic import System
+from singsym.varieties.real.curves.assembly import assemble
+from singsym.varieties.real.curves.critical_points import Samples, as_balls
+from singsym.varieties.real.curves.paths import Chain
+from singsym.varieties.real.curves.tracking import kernels
+from singsym.varieties.real.curves.tubes import location
+from singsym.varieties.real.curves.zeros import zeros_on
+from singsym.varieties.real.modules.assemblies import Dyad, assemblies, dyad
+from singsym.varieties.real.points.boxed_point import BoxPoint, boxed_point
+from singsym.varieties.real.points.intervals import at_precision, evaluate, exact_bounds
+
+_BITS = 256
+
+
+@dataclass(frozen=True)
+class Tower:
+    """A circle and the dyads over it, in the order in which they are solved.
+
+    numbers: the relations of the fixed numbers; circle: the equation of the base in two variables.
+    """
+
+    numbers: Equations
+    circle: Polynomial
+    base: tuple[str, str]
+    dyads: tuple[Module, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class LiftedCurve:
+    """All of a curve, as loops that are proven: its connected components, each once."""
+
+    system: System
+    loops: tuple[Chain, ...]
+
+
+def tower(equations: Sequence[Polynomial]) -> Tower | None:
+    """Equations of a curve as a circle with dyads over it; `None` where they are not.
+
+    >>> from singsym.polynomials import Ring
+    >>> c, s, x, y = Ring(("c", "s", "x", "y")).gens
+    >>> found = tower((c**2 + s**2 - 1, (x - c) ** 2 + (y - s) ** 2 - 9, (x - 3) ** 2 + y**2 - 4))
+    >>> found.base, found.dyads[0].unknowns
+    (('c', 's'), ('x', 'y'))
+    """
+    ring = equations[0].ring
+    constants = {c.name for c in ring.constants}
+    numbers = tuple(p for p in equations if constants.issuperset(p.variables))
+    others = [p for p in equations if p not in numbers]
+    for circle in others:
+        base = tuple(name for name in circle.variables if name not in constants)
+        if len(base) != 2 or not _is_circle(circle, base):
+            continue
+        form = block_form([p for p in others if p is not circle], given=(*base, *constants))
+        complete = len(base) + sum(len(m.unknowns) for m in form.modules) + len(constants)
+        if complete != len(ring.names) or form.left_over:
+            continue
+        if all(map(_is_round, form.modules)):
+            return Tower(numbers, circle, (base[0], base[1]), form.modules)
+    return None
+
+
+def _is_circle(p: Polynomial, names: Sequence[str]) -> bool:
+    """Whether it is a x^2 + a y^2 plus terms of lower degree with a rational a."""
+    x, y = names
+    one, two = p.coefficient(x, 2), p.coefficient(y, 2)
+    mixed = p.coefficient(x, 1).coefficient(y, 1)
+    return p.degree(x) == p.degree(y) == 2 and one == two and one.is_constant and not mixed
+
+
+def _is_round(module: Module) -> bool:
+    """Whether a module is a dyad with a circle as its conic, so that no solution is at infinity."""
+    found = dyad(module)
+    if found is None:
+        return False
+    one, two = (found.conic.get(m) for m in ((2, 0), (0, 2)))
+    return one is not None and one == two and one.is_constant and (1, 1) not in found.conic
+
+
+def points_on_tower(equations: Equations, budget: Budget) -> tuple[BoxPoint, ...]:
+    """All real points of a square system, of which all equations but one are a circle with dyads over it.
+
+    Raises `Undecided` where they are not, or the curve is not smooth, or touched by the equation left out.
+
+    >>> c, s, x, y = Ring(("c", "s", "x", "y")).gens
+    >>> crank_rocker = (c**2 + s**2 - 1, (x - c) ** 2 + (y - s) ** 2 - 9, (x - 3) ** 2 + y**2 - 4)
+    >>> [p.decimals(3)["x"] for p in points_on_tower((*crank_rocker, c * y - s * x), Budget())]
+    ['1.50', '1.50', '3.50', '3.50']
+    """
+    for found, last in _towers(equations):
+        curve = lifted_curve(found, budget)
+        return tuple(
+            point for loop in curve.loops for point in zeros_on(curve.system, loop, last, budget).zeros
+        )
+    raise Undecided("the equations are not a curve of dyads over a circle, and one more")
+
+
+def is_tower(equations: Equations) -> bool:
+    """Whether equations are a circle with dyads over it, and one more."""
+    return next(_towers(equations), None) is not None
+
+
+def _towers(equations: Equations) -> Iterator[tuple[Tower, Polynomial]]:
+    """Each way to see them so, with the equation that is left out; long ones are left out first."""
+    for last in sorted(equations, key=len, reverse=True):
+        found = tower([p for p in equations if p is not last])
+        if found is not None:
+            yield found, last
+
+
+def lifted_curve(found: Tower, budget: Budget) -> LiftedCurve:
+    """All components of the curve of a tower; raises `Undecided` where it is not proven to be smooth."""
+    ring = found.circle.ring
+    own = _subring(ring, (*(c.name for c in ring.constants), *found.base))
+    equations = tuple(map(own.convert, (*found.numbers, found.circle)))
+    curve = _traced(own, equations, _on_circle(own, equations, found.base), budget)
+    for module in found.dyads:
+        curve = _lifted(curve, module, ring, budget)
+    return curve
+
+
+def _subring(ring: Ring, names: Sequence[str]) -> Ring:
+    return ring.with_names(tuple(n for n in ring.names if n in names))
+
+
+def _traced(ring: Ring, equations: Equations, marks: Sequence[BoxPoint], budget: Budget) -> LiftedCurve:
+    """The components through some points."""
+    system = System(ring, equations)
+    if not marks:
+        return LiftedCurve(system, ())
+    samples = Samples(ring.zero, (), boxed=tuple(marks))
+    edges = assemble(system, equations, samples, (), budget, prove=True).edges
+    return LiftedCurve(system, tuple(edge.chain for edge in edges))
+
+
+def _on_circle(ring: Ring, equations: Equations, base: tuple[str, str]) -> list[BoxPoint]:
+    """A point of the circle, where it is one: at about a quarter of its radius above its centre."""
+    circle, (x, y) = equations[-1], base
+    parts = (circle.coefficient(x, i).coefficient(y, j) for i, j in ((2, 0), (1, 0), (0, 1), (0, 0)))
+    numbers = [float((c.low + c.high) / 2) for c in ring.constants]
+    near = dict(zip((c.name for c in ring.constants), numbers, strict=True))
+    a, b, c, d = (float(p.evaluate([near.get(n, 0.0) for n in ring.names])) for p in parts)
+    square = (b * b + c * c) / (4 * a * a) - d / a
+    if square <= 0:
+        raise Undecided("whether a circle has real points is not seen")
+    height = Fraction(-c / (2 * a) + sqrt(square) / 4).limit_denominator(1000)
+    near |= {x: -b / (2 * a) + sqrt(square - (height + c / (2 * a)) ** 2), y: float(height)}
+    return [_certified((*equations, ring.gen(y) - height), [near[n] for n in ring.names])]
+
+
+def _lifted(curve: LiftedCurve, module: Module, whole: Ring, budget: Budget) -> LiftedCurve:
+    """The covering of a curve by the assemblies of a dyad.
+
+    Lemma: over a loop on which the discriminant is positive it has two sheets, on which every component has
+    a point over any point of the loop; over an arc where it is positive, between simple zeros, one component,
+    which has a point over each end.  The dyad's line is one there, as the discriminant is a form of second
+    degree in its coefficients.
+    """
+    found = dyad(module)
+    assert found is not None
+    lower = curve.system.ring
+    ring = _subring(whole, (*lower.names, *module.unknowns))
+    equations = tuple(map(ring.convert, (*curve.system.equations, *module.equations)))
+    discriminant, tangency = lower.convert(found.discriminant), ring.convert(found.tangency)
+    marks: list[BoxPoint] = []
+    for loop in curve.loops:
+        signed = zeros_on(curve.system, loop, discriminant, budget)
+        if found.pivot is not None and not found.pivot.is_constant:
+            _never_zero(curve, signed.chain, lower.convert(found.pivot), budget)
+        marks += [_touching(z, found, (*equations, tangency)) for z in signed.zeros]
+        if not signed.zeros and signed.signs[0] > 0:
+            marks += _sheets(curve.system, signed.chain, discriminant, module, equations)
+    return _traced(ring, equations, marks, budget)
+
+
+def _never_zero(curve: LiftedCurve, loop: Chain, polynomial: Polynomial, budget: Budget) -> None:
+    if zeros_on(curve.system, loop, polynomial, budget).zeros:
+        raise Undecided("two circles of a dyad are one at a point of a curve")
+
+
+def _touching(base: BoxPoint, found: Dyad, equations: Equations) -> BoxPoint:
+    """The point over a zero of the discriminant, where line and conic touch; the tangency comes last."""
+    x, y = found.unknowns
+    fine = base.refine(_BITS)
+    with at_precision(_BITS + 64):
+        known = dict(zip(base.ring.names, fine.box, strict=True))
+        line = {m: _value(c, known) for m, c in found.line.items()}
+        conic = {m: _value(c, known) for m, c in found.conic.items()}
+        a, b, c = (line.get(m, arb(0)) for m in ((1, 0), (0, 1), (0, 0)))
+        round_, u, v = (conic.get(m, arb(0)) for m in ((2, 0), (1, 0), (0, 1)))
+        # the foot of the circle's centre on the line
+        across = -u / (2 * round_), -v / (2 * round_)
+        length = a * a + b * b
+        if length.contains(0):
+            raise Undecided("a dyad turns freely at a point of a curve")
+        off = (a * across[0] + b * across[1] + c) / length
+        known |= {x: across[0] - a * off, y: across[1] - b * off}
+    return _over(equations, known)
+
+
+def _sheets(
+    system: System, loop: Chain, discriminant: Polynomial, module: Module, equations: Equations
+) -> list[BoxPoint]:
+    """The two points over one of the loop, at a rational value of a coordinate that changes fast there."""
+    values = np.abs(System(system.ring, (discriminant,)).values(loop.points)[:, 0])
+    vertex = loop.points[int(values.argmax())]
+    along = np.abs(kernels(system, vertex[None])[0])
+    name = system.ring.names[int(along.argmax())]
+    level = Fraction(float(vertex[int(along.argmax())])).limit_denominator(10**6)
+    base = _certified((*system.equations, system.ring.gen(name) - level), [float(v) for v in vertex])
+    assert loop.tubes is not None
+    inside, _ = location(loop.tubes, as_balls([base], len(system.ring.names)))
+    if not inside.any():
+        raise Undecided("a point of a curve is not proven to be on its loop")
+    fine = base.refine(_BITS)
+    with at_precision(_BITS + 64):
+        known = dict(zip(base.ring.names, fine.box, strict=True))
+        over = [{**known, **found} for found in assemblies(module, known)]
+    held = equations[0].ring.gen(name) - level
+    return [_over((*equations, held), balls) for balls in over]
+
+
+def _over(equations: Equations, balls: Mapping[str, arb]) -> BoxPoint:
+    """The solution of equations that is known by these balls, in a box of its own."""
+    names = equations[0].ring.names
+    point = _certified(equations, [sum(exact_bounds(balls[n])) / 2 for n in names])
+    if not all(box.contains(balls[n]) for n, box in zip(names, point.box, strict=True)):
+        raise Undecided("the Krawczyk test fails at a point of a curve")
+    return point
+
+
+def _certified(equations: Equations, near: Sequence[float | Fraction]) -> BoxPoint:
+    point = boxed_point(equations[0].ring, equations, {}, near)
+    if point is None:
+        raise Undecided("the Krawczyk test fails at a point of a curve")
+    return point
+
+
+def _value(p: Polynomial, known: Mapping[str, arb]) -> arb:
+    return evaluate(p, [known.get(name, arb(0)) for name in p.ring.names])

@@ -1,0 +1,46 @@
+"""Square systems solved module by module."""
+
+from __future__ import annotations
+
+import pytest
+
+from singsym.effort.budget import Undecided
+from singsym.polynomials import Ring
+from singsym.varieties.real.modules.module_points import module_points
+from singsym.varieties.real.points.finite_sets import real_points
+
+R = Ring(("c", "s", "u", "v", "x", "y"))
+C, S, U, V, X, Y = R.gens
+LINKAGE = (
+    C**2 + S**2 - 4,
+    (U - C) ** 2 + (V - S) ** 2 - 16,
+    (U - 4) ** 2 + (V - 1) ** 2 - 9,
+    (X - U) ** 2 + (Y - V) ** 2 - 25,
+    (X - 7) ** 2 + Y**2 - 9,
+)
+"""A crank of length 2 with two dyads."""
+
+
+def test_the_same_as_exact_algebra() -> None:
+    """Where crank and coupler are in line; once by modules, once by one Groebner basis of all."""
+    system = (*LINKAGE, C * V - S * U)
+    found = sorted(p.floats for p in module_points(system))
+    exact = sorted(p.floats for p in real_points(system))
+    assert len(found) == len(exact) > 0
+    assert all(a == pytest.approx(b, abs=1e-9) for a, b in zip(found, exact, strict=True))
+
+
+def test_an_equation_more_is_looked_at_in_each_point() -> None:
+    """Where crank and coupler are in line, no crank is upright as well."""
+    assert module_points((*LINKAGE, C * V - S * U, C)) == ()
+
+
+def test_points_with_a_multiplicity_are_not_decided() -> None:
+    """The second dyad at its limit, where the first one is: a square of four bars of length 1, folded."""
+    with pytest.raises(Undecided):
+        module_points((X**2 - 2, (X * Y - 1) ** 2, U - Y, V - U, C - V, S - C))
+
+
+def test_two_equations_for_six_unknowns() -> None:
+    with pytest.raises(Undecided, match="fewer equations"):
+        module_points((X**2 - 2, Y - X))
