@@ -288,7 +288,7 @@ class Polynomial:
 
     @property
     def _table(self) -> tuple[tuple[int, int, tuple[int, ...]], ...]:
-        """Numerator, denominator and the places of the variables of each term, each as often as it is there."""
+        """Of each term numerator, denominator and the places of its variables, as often as they are there."""
         try:
             return self._terms
         except AttributeError:
