@@ -6,14 +6,14 @@ Hauenstein, Sottile, ACM Trans. Math. Softw. 38 (2012) 28.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import chain
 
 from singsym.classes.realisation.certified_configuration import Names, configuration
 from singsym.classes.realisation.dimension_bounds import (
-    Bound,
     bound_above,
     is_bounded,
     larger_parts,
@@ -29,14 +29,19 @@ from singsym.classes.strata.reflections import image
 from singsym.effort import patience
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Budget, Undecided
-from singsym.effort.verdict import Certainty, Verdict, certainties, weakest
+from singsym.effort.verdict import Known, Premises, Verdict, weakest
 from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.kinematics.placement import JointValue
 from singsym.polynomials import Equations
 from singsym.varieties.real.dimension.extent import EMPTY, Extent
 from singsym.varieties.real.dimension.hyperplane_cuts import Cut, dimension_by_cuts
 from singsym.varieties.real.dimension.independent_coordinates import are_dependent
-from singsym.varieties.real.dimension.real_dimension import component_dimension, independent, real_dimension
+from singsym.varieties.real.dimension.real_dimension import (
+    Dimension,
+    component_dimension,
+    independent,
+    real_dimension,
+)
 from singsym.varieties.real.numerical.sampling import numerical_codimension
 from singsym.varieties.real.points.boxed_point import BoxPoint
 from singsym.varieties.real.points.certified_point import Witness, find_witness
@@ -100,7 +105,7 @@ def realise(task: RealTask) -> Realised:
     system = replace(task.feasible, equations=stratum.equations, exclusions=exclusions)
     points: CertifiedPoints = ()
     try:
-        with Budget(work=task.seconds, memory_mb=task.memory_mb), certainties() as seen:
+        with Budget(work=task.seconds, memory_mb=task.memory_mb):
             if task.known is None:
                 piece, points = _realised(piece, system, task)
             else:
@@ -108,9 +113,6 @@ def realise(task: RealTask) -> Realised:
                     with attempt("a point of a stratum", share=1 / 2):
                         piece, points = _realised(piece, system, task)
                 piece, points = _above(piece, points, system, task)
-        if piece.verdict.is_no:
-            verdict = replace(piece.verdict, certainty=weakest(piece.verdict.certainty, *seen))
-            piece = replace(piece, verdict=verdict)
     except Undecided as reason:
         verdict = piece.verdict if points else Verdict.undecided(str(reason))
         piece = replace(piece, verdict=verdict, extent=replace(piece.extent, open=str(reason)))
@@ -133,7 +135,7 @@ def _above(
     reason = f"that there is no part of a dimension above {known} was not proven in time"
     if bound is not None:
         reason = f"only a dimension above {known} would matter"
-        extent = replace(piece.extent, at_most=bound.dimension, bounded=bound.certainty)
+        extent = replace(piece.extent, at_most=bound.value, bounded=bound.certainty)
         piece = replace(piece, extent=extent)
     verdict = piece.verdict if points else Verdict.undecided(reason)
     return replace(piece, verdict=verdict, extent=replace(piece.extent, open=reason)), points
@@ -152,12 +154,8 @@ def _realised(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, 
     if component is None:
         return _given(piece, system, task)
     if component.dimension == 0:
-        with certainties() as seen:
-            solutions = real_points(stratum.equations)
-        return _finite(piece, solutions, system, stratum.elsewhere, weakest(*seen))
-    with certainties() as seen:
-        found = component_dimension(component, system)
-    return _counted(*_exactly(piece, *found, weakest(*seen)), system, stratum.elsewhere)
+        return _finite(piece, real_points(stratum.equations), system, stratum.elsewhere)
+    return _counted(*_exactly(piece, component_dimension(component, system)), system, stratum.elsewhere)
 
 
 def _images(piece: Piece, points: CertifiedPoints, task: RealTask) -> Iterator[Piece]:
@@ -188,14 +186,15 @@ def _given(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, Cer
     elsewhere = task.found.stratum.elsewhere
     dimension = len(system.ring.names) - len(system.closed_equations)
     if dimension <= 0:
-        with certainties() as seen:
-            solutions = _finitely_many(system)
+        solutions = _finitely_many(system)
         if solutions is not None:
-            return _finite(piece, solutions, system, elsewhere, weakest(*seen))
+            return _finite(piece, solutions, system, elsewhere)
     codimension = numerical_codimension(system)
     patch = unsplit(system.closed_equations, system.ring)
-    if codimension is None and is_proven_empty(restricted(system, patch)):
-        return _exactly(piece, -1, None)
+    if codimension is None:
+        empty = is_proven_empty(restricted(system, patch))
+        if empty.is_yes:
+            return _exactly(piece, Known((-1, None), empty.certainty))
     if codimension is None or codimension[0] == len(system.closed_equations):
         near = [codimension[1]] if codimension else []
         witness = find_witness(off_borders(system), tries=SEARCHES, near=near)
@@ -204,9 +203,9 @@ def _given(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, Cer
     return _counted(*_singular(piece, system, patch), system, elsewhere)
 
 
-def _finitely_many(system: RealSystem) -> Sequence[RealPoint] | None:
+def _finitely_many(system: RealSystem) -> Known[tuple[RealPoint, ...]] | None:
     """All real zeros, off the exclusions where there are too many on them; None where they are not found."""
-    for zeros in (lambda: real_points(system.closed_equations), lambda: points_off_exclusions(system)):
+    for zeros in (partial(real_points, system.closed_equations), partial(points_off_exclusions, system)):
         with suppress(NotZeroDimensional), attempt("finitely many points", share=1 / 3):
             return zeros()
         if not system.exclusions:
@@ -226,7 +225,7 @@ def _bounded(
             if larger == most:
                 return found, points
             if (bound := _bound(system, larger, task)) is not None:
-                extent = Extent(larger, bound.dimension, bound.certainty)
+                extent = Extent(larger, bound.value, bound.certainty)
                 return replace(found, extent=extent), points
         return _by_components(piece, system)
     except Undecided as reason:
@@ -252,12 +251,13 @@ def _dependent(piece: Piece, system: RealSystem, patch: Patch) -> tuple[Piece, C
     """A set given by dependent equations: its dimension by cuts, else by its components."""
     chart, beside = _charted(system, patch)
     cut = _cut(chart.system)
-    if cut is not None and cut.dimension < 0:
+    if cut is not None and cut.value.dimension < 0:
         verdict = Verdict.no(cut.certainty, reason="there is no complex solution")
         return replace(piece, verdict=verdict, extent=EMPTY), ()
-    if cut is not None and cut.point is not None and chart.faithful and _is_inside(cut.point, chart.system):
-        dimension = cut.dimension - beside
-        near = _unsolved(chart, patch, cut.point)
+    point = None if cut is None else cut.value.point
+    if cut is not None and point is not None and chart.faithful and _is_inside(point, chart.system):
+        dimension = cut.value.dimension - beside
+        near = _unsolved(chart, patch, point)
         witness = find_witness(system, tries=SEARCHES, dimension=dimension, near=[near])
         if witness is not None:
             return _known(piece, Extent(dimension, dimension, cut.certainty), witness)
@@ -270,9 +270,7 @@ def _is_inside(witness: Witness, system: RealSystem) -> bool:
 
 
 def _by_components(piece: Piece, system: RealSystem) -> tuple[Piece, CertifiedPoints]:
-    with certainties() as seen:
-        found = real_dimension(system)
-    return _exactly(piece, *found, weakest(*seen))
+    return _exactly(piece, real_dimension(system))
 
 
 def _unsolved(chart: Cartesian, patch: Patch, witness: Witness) -> tuple[float, ...]:
@@ -289,22 +287,22 @@ def _charted(system: RealSystem, patch: Patch) -> tuple[Cartesian, int]:
     return chart, len(patch.solved) + chart.left_out
 
 
-def _bound(system: RealSystem, dimension: int, task: RealTask) -> Bound | None:
+def _bound(system: RealSystem, dimension: int, task: RealTask) -> Known[int] | None:
     """A bound of the dimension of a set, where it is one."""
     chart, beside = _charted(system, unsplit(system.closed_equations, system.ring))
     if is_bounded(chart.system, dimension, beside):
-        return Bound(dimension)
+        return Known(dimension)
     if task.most == dimension + 1 and task.coordinates:
         with attempt("a bound of a dimension", patience.BOUND_BY_JOINTS.work):
             if are_missed(system.closed_equations, task.coordinates):
-                return Bound(dimension, "modular")
+                return Known(dimension, "modular")
     with attempt("a bound of a dimension", patience.BOUND_BY_VALUES.work):
         if are_dependent(system, dimension, task.circles):
-            return Bound(dimension, "modular")
+            return Known(dimension, "modular")
     return bound_above(chart.system, dimension, beside)
 
 
-def _cut(system: RealSystem) -> Cut | None:
+def _cut(system: RealSystem) -> Known[Cut] | None:
     """The dimension by cuts where it is found in time."""
     with attempt("the dimension of a set", patience.DIMENSION.work):
         return dimension_by_cuts(system)
@@ -317,13 +315,13 @@ def _lies_in(point: RealPoint, loci: tuple[Equations, ...]) -> bool:
 
 def _finite(
     piece: Piece,
-    solutions: Sequence[RealPoint],
+    solutions: Known[tuple[RealPoint, ...]],
     system: RealSystem,
     elsewhere: tuple[Equations, ...],
-    known: Certainty,
 ) -> tuple[Piece, CertifiedPoints]:
-    """The points of a set; known: how it is that the solutions are all that there are, or may be in it."""
-    points = tuple(p for p in solutions if system.admits(p) and not _lies_in(p, elsewhere))
+    """The points of a set among all solutions of some equations that hold on it."""
+    known = solutions.certainty
+    points = tuple(p for p in solutions.value if system.admits(p) and not _lies_in(p, elsewhere))
     if not points:
         verdict = Verdict.no(
             known, reason="none of finitely many complex solutions is real, feasible and new"
@@ -335,10 +333,9 @@ def _finite(
     return found, points
 
 
-def _exactly(
-    piece: Piece, dimension: int, witness: Witness | None, known: Certainty = "proven"
-) -> tuple[Piece, CertifiedPoints]:
-    """A set whose real dimension is known, with a point of it where there is one; known: how it is."""
+def _exactly(piece: Piece, found: Known[Dimension]) -> tuple[Piece, CertifiedPoints]:
+    """A set whose real dimension is known, with a point of it where there is one."""
+    (dimension, witness), known = found.value, found.certainty
     if witness is None:
         verdict = Verdict.no(known, reason="the equations have no real and feasible solution")
         return replace(piece, verdict=verdict, extent=EMPTY), ()
@@ -361,21 +358,22 @@ def _counted(
     if piece.dimension != 0 or piece.points is not None:
         return piece, points
     try:
-        with certainties() as seen:
-            samples = list(_samples(system, system.away, system.nonnegative))
+        samples = _samples(system, system.away, system.nonnegative)
     except Undecided as reason:
         return replace(piece, extent=replace(piece.extent, open=f"points not counted: {reason}")), points
     distinct: list[RealPoint] = []
-    for point in samples:
+    for point in samples.value:
         if not any(point.coincides(other) for other in distinct):
             distinct.append(point)
-    return _finite(piece, distinct, system, elsewhere, weakest(piece.extent.bounded, *seen))
+    known = weakest(piece.extent.bounded, samples.certainty)
+    return _finite(piece, Known(tuple(distinct), known), system, elsewhere)
 
 
-def _samples(system: RealSystem, away: Equations, borders: Equations) -> Iterator[RealPoint]:
+def _samples(system: RealSystem, away: Equations, borders: Equations) -> Known[tuple[RealPoint, ...]]:
     """A point on each connected component of the zeros, and of those on one border, on two, and so on."""
-    found = sample_points(system.ring, system.closed_equations, nonzero=away)
-    yield from found
+    premises = Premises()
+    found = premises.take(sample_points(system.ring, system.closed_equations, nonzero=away))
     for k, border in enumerate(borders if found else ()):
         on_it = replace(system, equations=(*system.equations, border))
-        yield from _samples(on_it, away, borders[k + 1 :])
+        found = (*found, *premises.take(_samples(on_it, away, borders[k + 1 :])))
+    return premises.conclude(found)
