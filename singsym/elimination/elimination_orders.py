@@ -75,18 +75,19 @@ def _eliminate_group(
     weight = max(2, max(p.total_degree for p in group))
     while weight < _LARGEST_WEIGHT:
         budget.check("elimination")
+        premises = Premises()
         try:
-            known = groebner_basis(ring, [_stretched(p, positions, weight) for p in group], budget)
+            stretched = [_stretched(p, positions, weight) for p in group]
+            basis = premises.take(groebner_basis(ring, stretched, budget))
         except engines.EngineFailure:
             break
-        basis = known.value.polynomials
-        free = [p for p in basis if not any(p.terms()[0][0][i] for i in positions)]
+        free = [p for p in basis.polynomials if not any(p.terms()[0][0][i] for i in positions)]
         if all(not p.degrees[i] > 0 for p in free for i in positions):
-            return Known(tuple(free), known.certainty)
+            return premises.conclude(tuple(free))
         weight *= 4
     variables = tuple(ring.gens[i] for i in positions)
     answer = engines.ask(engines.Task("eliminate", ring, tuple(group), variables), budget)
-    return Known(answer.ideals[0], answer.certainty)
+    return answer.known.map(lambda ideals: ideals[0])
 
 
 def _stretched(polynomial: Polynomial, positions: Sequence[int], weight: int) -> Polynomial:

@@ -324,7 +324,7 @@ class Ideal:
         except engines.EngineFailure:
             task = engines.Task("saturate", graded, tuple(generators), (graded.convert(factor),))
             answer = engines.ask(task, budget)
-            return self._from(Known(answer.ideals[0], answer.certainty))
+            return self._from(answer.known.map(lambda ideals: ideals[0]))
 
     def quotient(self, other: Polynomial | Ideal, budget: Budget | None = None) -> Known[Ideal]:
         """The f with f g in the ideal for every g in `other`.

@@ -38,7 +38,7 @@ class CurveTask:
 class Counted:
     """The numbers of connected components of a curve and its images, or None with the reason.
 
-    open: whether a larger budget could say more.
+    open: whether a larger budget could say more.  Bases modulo primes will do for a number.
     """
 
     components: tuple[int, ...] | None

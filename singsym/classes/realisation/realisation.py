@@ -294,11 +294,13 @@ def _bound(system: RealSystem, dimension: int, task: RealTask) -> Known[int] | N
         return Known(dimension)
     if task.most == dimension + 1 and task.coordinates:
         with attempt("a bound of a dimension", patience.BOUND_BY_JOINTS.work):
-            if are_missed(system.closed_equations, task.coordinates):
-                return Known(dimension, "modular")
+            missed = are_missed(system.closed_equations, task.coordinates)
+            if missed.is_yes:
+                return Known(dimension, missed.certainty)
     with attempt("a bound of a dimension", patience.BOUND_BY_VALUES.work):
-        if are_dependent(system, dimension, task.circles):
-            return Known(dimension, "modular")
+        dependent = are_dependent(system, dimension, task.circles)
+        if dependent.is_yes:
+            return Known(dimension, dependent.certainty)
     return bound_above(chart.system, dimension, beside)
 
 
