@@ -19,7 +19,7 @@ from singsym.conditions.conditions import Conditions
 from singsym.conditions.factor import Factor
 from singsym.effort import chance, patience
 from singsym.effort.attempts import attempt
-from singsym.effort.verdict import Certainty, Verdict, unnoted, weakest
+from singsym.effort.verdict import Certainty, Verdict, weakest
 from singsym.elimination.ideal import Ideal
 from singsym.kinematics.mobility import check_mobility
 from singsym.polynomials import Polynomial
@@ -165,8 +165,9 @@ def _may_vanish(polynomial: Polynomial, piece: Piece) -> bool:
 
 def _vanishes(polynomial: Polynomial, piece: Piece) -> bool:
     """Whether a polynomial is proven to vanish on a piece, as a member of its ideal."""
-    with attempt("membership", patience.LOCUS_HOLDS_PIECE.work), unnoted() as seen:
-        return Ideal(polynomial.ring, piece.basis).contains(polynomial) and weakest(*seen) == "proven"
+    with attempt("membership", patience.LOCUS_HOLDS_PIECE.work):
+        inside = Ideal(polynomial.ring, piece.basis).contains(polynomial)
+        return inside.value and inside.is_proven
     return False
 
 

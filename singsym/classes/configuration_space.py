@@ -24,7 +24,7 @@ from singsym.classes.taxonomy.types import Defects, SingularityType
 from singsym.conditions.conditions import Conditions
 from singsym.effort import patience
 from singsym.effort.attempts import attempt
-from singsym.effort.verdict import Verdict, unnoted, weakest
+from singsym.effort.verdict import Premises, Verdict
 from singsym.elimination.ideal import Ideal
 from singsym.mechanism.model import Mechanism
 from singsym.minors.determinant import maximal_minors
@@ -139,14 +139,17 @@ def _is_complete_intersection(conditions: Conditions) -> bool:
     if len(equation.matrix.rows) != equation.N:
         return False
     usual = equation.n + len(space.parameters)
-    with attempt("the dimensions of the loop equations", patience.SMOOTHNESS.work), unnoted() as seen:
-        if Ideal(space.ring, space.equations).dimension > usual:
+    with attempt("the dimensions of the loop equations", patience.SMOOTHNESS.work):
+        whole = Ideal(space.ring, space.equations).dimension
+        if whole.value > usual:
             return False
         for label in ("5", "4"):
             alternatives = conditions[label].polynomials
             if conditions[label].alternatives is None or conditions[label].everywhere:
                 continue
+            premises = Premises(whole.certainty)
             parts = (Ideal(space.ring, (*space.equations, *locus)) for locus in alternatives)
-            if all(part.dimension < usual for part in parts) and weakest(*seen) == "proven":
+            smaller = all(premises.take(part.dimension) < usual for part in parts)
+            if smaller and premises.certainty == "proven":
                 return True
     return False

@@ -21,7 +21,7 @@ from singsym.classes.taxonomy.types import SingularityType
 from singsym.classes.unit_border import Border
 from singsym.conditions.conditions import Condition, Conditions, conditions
 from singsym.effort.budget import Budget, Undecided
-from singsym.effort.verdict import Certainty, Verdict, certainties, weakest
+from singsym.effort.verdict import Certainty, Known, Premises, Verdict, weakest
 from singsym.elimination.ideal import Ideal
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import Mechanism
@@ -278,37 +278,47 @@ def solve_locus(task: LocusTask) -> Solved:
     """Decompose a closed part and find real points on each component: the task that workers run."""
     feasible = task.feasible
     try:
-        with Budget(work=task.seconds, memory_mb=task.memory_mb), certainties() as seen:
-            components = decompose((*task.path, *task.equations), feasible.nonzero, ring=feasible.ring)
-            kept = [c for c in components if not is_excluded(c, feasible)]
-            pieces = tuple(_real(task, component) for component in kept)
-        return Solved(pieces, certainty=weakest(*seen))
+        with Budget(work=task.seconds, memory_mb=task.memory_mb):
+            premises, equations = Premises(), (*task.path, *task.equations)
+            components = premises.take(decompose(equations, feasible.nonzero, ring=feasible.ring))
+            kept = [c for c in components if not premises.take(is_excluded(c, feasible))]
+            pieces = tuple(premises.take(_real(task, component)) for component in kept)
+        return Solved(pieces, certainty=premises.certainty)
     except Undecided as reason:
         return Solved((), str(reason))
 
 
-def _real(task: LocusTask, component: Component) -> SolutionPiece:
+def _real(task: LocusTask, component: Component) -> Known[SolutionPiece]:
+    """What is real of a component; the certainty is that of there being no more."""
     system = replace(task.feasible, equations=component.generators)
     piece = SolutionPiece(
         task.path, component.generators, (), Verdict.undecided("not examined"), component.dimension
     )
     try:
         if component.dimension == 0:
-            points = [p for p in real_points(component.generators) if system.admits(p)]
+            known = real_points(component.generators)
+            points = [p for p in known.value if system.admits(p)]
             if not points:
-                return replace(piece, verdict=Verdict.no(reason="no real and feasible point"), extent=EMPTY)
+                return _none(piece, known.certainty)
             shown = tuple(configuration(p, task.names) for p in points)
-            finite = Extent(0, 0)
-            return replace(piece, verdict=Verdict.yes(), extent=finite, points=len(points), witnesses=shown)
-        dimension, witness = component_dimension(component, system)
+            found = replace(piece, verdict=Verdict.yes(), points=len(points), witnesses=shown)
+            return Known(replace(found, extent=Extent(0, 0)), known.certainty)
+        measured = component_dimension(component, system)
     except Undecided as reason:
         unknown = replace(UNKNOWN, open=str(reason))
-        return replace(piece, verdict=Verdict.undecided(str(reason)), extent=unknown)
+        return Known(replace(piece, verdict=Verdict.undecided(str(reason)), extent=unknown))
+    dimension, witness = measured.value
     if witness is None:
-        return replace(piece, verdict=Verdict.no(reason="no real and feasible point"), extent=EMPTY)
+        return _none(piece, measured.certainty)
     verdict = Verdict.yes("proven" if isinstance(witness.point, RealPoint) else "certified")
     shown = (configuration(witness.point, task.names),)
-    return replace(piece, verdict=verdict, extent=Extent(dimension, dimension), witnesses=shown)
+    extent = Extent(dimension, dimension)
+    return Known(replace(piece, verdict=verdict, extent=extent, witnesses=shown), measured.certainty)
+
+
+def _none(piece: SolutionPiece, certainty: Certainty) -> Known[SolutionPiece]:
+    verdict = Verdict.no(certainty, reason="no real and feasible point")
+    return Known(replace(piece, verdict=verdict, extent=EMPTY), certainty)
 
 
 def _from_classes(condition: Condition, whole: Classification) -> Solution:

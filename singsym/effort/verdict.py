@@ -1,20 +1,20 @@
-"""Answers that say how they are known: yes, no or undecided, with a certificate or a reason.
+"""Answers that say how they are known: values with their certainty, and yes, no or undecided with a reason.
 
 Source: the contract between numerics and proofs; numerics may find, they never conclude.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from contextvars import ContextVar
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any, Literal
+from typing import Any, Generic, Literal, TypeVar
 
 from singsym.effort.chance import PRIMES
 
 Certainty = Literal["proven", "certified", "modular", "undecided"]
+Value = TypeVar("Value", covariant=True)
+T = TypeVar("T")
 
 
 def described(certainty: Certainty) -> str:
@@ -36,67 +36,84 @@ def weakest(*certainties: Certainty) -> Certainty:
     return max(certainties, key=order.index, default="proven")
 
 
-_seen: ContextVar[list[Certainty] | None] = ContextVar("certainties", default=None)
+@dataclass(frozen=True)
+class Known(Generic[Value]):
+    """A value and how it is known: what is answered to a question that is not one of yes, no and undecided.
 
+    It has no truth value of its own and is no number and no sequence, so that nobody takes it for the value.
 
-@contextmanager
-def certainties() -> Iterator[list[Certainty]]:
-    """A list of how everything is known that engines, or results remembered of theirs, answer inside.
-
-    >>> with certainties() as seen:
-    ...     note("modular")
-    >>> seen
-    ['modular']
+    >>> Known(2, "modular").value
+    2
+    >>> bool(Known(False))
+    Traceback (most recent call last):
+    ...
+    TypeError: what is known has no truth value: take its value, which is proven
     """
-    outer, seen = _seen.get(), list[Certainty]()
-    token = _seen.set(seen)
-    try:
-        yield seen
-    finally:
-        _seen.reset(token)
-        if outer is not None:
-            outer.extend(seen)
+
+    value: Value
+    certainty: Certainty = "proven"
+
+    @property
+    def is_proven(self) -> bool:
+        """Whether it is proven by exact algebra."""
+        return self.certainty == "proven"
+
+    def map(self, function: Callable[[Value], T]) -> Known[T]:
+        """What follows from the value alone.
+
+        >>> Known(2, "modular").map(float)
+        Known(value=2.0, certainty='modular')
+        """
+        return Known(function(self.value), self.certainty)
+
+    def __bool__(self) -> bool:
+        raise TypeError(f"what is known has no truth value: take its value, which is {self.certainty}")
 
 
-def note(certainty: Certainty) -> None:
-    """Add to the innermost list of `certainties`, and so to those around it."""
-    seen = _seen.get()
-    if seen is not None and certainty not in seen:
-        seen.append(certainty)
+class Premises:
+    """What a conclusion rests on, so far: local to what draws the conclusion.
 
+    certainty: of what follows from all of it.
 
-@contextmanager
-def unnoted() -> Iterator[list[Certainty]]:
-    """Like `certainties`, but nothing of it reaches the lists around: for answers that may not be used.
-
-    >>> with certainties() as outer, unnoted() as seen:
-    ...     note("modular")
-    >>> outer, seen
-    ([], ['modular'])
+    >>> premises = Premises()
+    >>> premises.take(Known(2)) + premises.take(Known(3, "modular"))
+    5
+    >>> premises.conclude("odd")
+    Known(value='odd', certainty='modular')
     """
-    seen = list[Certainty]()
-    token = _seen.set(seen)
-    try:
-        yield seen
-    finally:
-        _seen.reset(token)
 
+    def __init__(self, *certainties: Certainty) -> None:
+        self.certainty: Certainty = weakest(*certainties)
 
-def noted_if_true(question: Callable[[], bool]) -> bool:
-    """The answer to a question of which a False has no consequences: then it does not matter how it is known.
+    def rest_on(self, certainty: Certainty) -> None:
+        """What follows is no more certain than this."""
+        self.certainty = weakest(self.certainty, certainty)
 
-    >>> with certainties() as seen:
-    ...     noted_if_true(lambda: note("modular") is not None)
-    False
-    >>> seen
-    []
-    """
-    with unnoted() as seen:
-        answer = question()
-    if answer:
-        for certainty in seen:
-            note(certainty)
-    return answer
+    def take(self, known: Known[T]) -> T:
+        """The value; what follows rests on it."""
+        self.rest_on(known.certainty)
+        return known.value
+
+    def grants(self, verdict: Verdict) -> bool:
+        """Whether the answer is yes, and what follows rests on it; without a yes nothing follows.
+
+        >>> premises = Premises()
+        >>> premises.grants(Verdict.yes("modular")), premises.grants(Verdict.undecided("no time"))
+        (True, False)
+        >>> premises.certainty
+        'modular'
+        """
+        if verdict.is_yes:
+            self.rest_on(verdict.certainty)
+        return verdict.is_yes
+
+    def conclude(self, value: T) -> Known[T]:
+        """What follows, as certain as the weakest of what it rests on."""
+        return Known(value, self.certainty)
+
+    def pass_on(self, known: Known[T]) -> Known[T]:
+        """An answer that rests on all of this as well."""
+        return self.conclude(self.take(known))
 
 
 class Answer(StrEnum):

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from flint import fmpq_mpoly, fmpz_mpoly_vec
 
 from singsym.effort.budget import Budget, current
-from singsym.effort.verdict import Certainty
+from singsym.effort.verdict import Known, Premises
 from singsym.elimination import engines
 from singsym.elimination.engines.division import remainder
 from singsym.elimination.linear_substitution import connected
@@ -21,12 +21,11 @@ from singsym.polynomials import Polynomial, Ring
 
 @dataclass(frozen=True)
 class Basis:
-    """A reduced Groebner basis in the ring's order, who computed it and how far it is proven."""
+    """A reduced Groebner basis in the ring's order, and who computed it."""
 
     ring: Ring
     polynomials: tuple[Polynomial, ...]
     engine: str
-    certainty: Certainty
 
     @property
     def is_unit(self) -> bool:
@@ -51,7 +50,9 @@ def canonical(ring: Ring, polynomials: Iterable[Polynomial]) -> tuple[Polynomial
     return (ring.one,) if any(p.is_constant for p in found) else tuple(found)
 
 
-def groebner_basis(ring: Ring, polynomials: Sequence[Polynomial], budget: Budget | None = None) -> Basis:
+def groebner_basis(
+    ring: Ring, polynomials: Sequence[Polynomial], budget: Budget | None = None
+) -> Known[Basis]:
     """The reduced Groebner basis; linear equations and unconnected groups are taken apart first.
 
     Raises `engines.EngineFailure`, `engines.EngineUnavailable`, `BudgetExceeded`.
@@ -61,33 +62,32 @@ def groebner_basis(ring: Ring, polynomials: Sequence[Polynomial], budget: Budget
     return remember("groebner", key, lambda: _groebner_basis(ring, generators, current(budget)), budget)
 
 
-def _groebner_basis(ring: Ring, generators: tuple[Polynomial, ...], budget: Budget) -> Basis:
+def _groebner_basis(ring: Ring, generators: tuple[Polynomial, ...], budget: Budget) -> Known[Basis]:
     budget.check("a Groebner basis")
     linear, rest = _linear_part(ring, list(generators))
     if not rest:
-        return Basis(ring, _sorted(ring, linear), "linear algebra", "proven")
+        return Known(Basis(ring, _sorted(ring, linear), "linear algebra"))
     if rest == [ring.one]:
-        return Basis(ring, (ring.one,), "linear algebra", "proven")
+        return Known(Basis(ring, (ring.one,), "linear algebra"))
     found: list[Polynomial] = []
     names: set[str] = set()
-    certainty: Certainty = "proven"
+    premises = Premises()
     for group in connected(rest):
         if len(group) == 1:
             found += group
             continue
         answer = _ask(engines.Task("groebner", ring, tuple(group)), budget)
-        basis = answer.ideals[0]
+        basis = premises.take(answer.known)[0]
         names.add(answer.engine)
-        if answer.certainty == "modular":
-            certainty = "modular"
         if any(p.is_constant for p in basis):
-            return Basis(ring, (ring.one,), answer.engine, answer.certainty)
+            return Known(Basis(ring, (ring.one,), answer.engine), answer.certainty)
         found += basis
     if any(p.total_degree == 1 for p in found):
         vector = _vector(ring, tuple(found))
         reduced = [remainder(p.integer(), vector) for p in linear]
         linear = [Polynomial(ring, fmpq_mpoly(p)).primitive() for p in reduced]
-    return Basis(ring, _sorted(ring, [*linear, *found]), ", ".join(sorted(names)) or "flint", certainty)
+    whole = _sorted(ring, [*linear, *found])
+    return premises.conclude(Basis(ring, whole, ", ".join(sorted(names)) or "flint"))
 
 
 def _ask(task: engines.Task, budget: Budget) -> engines.EngineAnswer:

@@ -11,14 +11,14 @@ from collections.abc import Collection, Sequence
 from itertools import count, islice
 
 from singsym.effort.budget import Budget
-from singsym.effort.verdict import Certainty, weakest
+from singsym.effort.verdict import Known, Premises
 from singsym.elimination import engines
 from singsym.elimination.basis import canonical, groebner_basis
 from singsym.elimination.linear_substitution import connected, substitute_solved
 from singsym.elimination.memo import remember
 from singsym.polynomials import Polynomial, Ring
 
-Generators = tuple[tuple[Polynomial, ...], Certainty]
+Generators = tuple[Polynomial, ...]
 
 _LARGEST_WEIGHT = 4000
 
@@ -41,8 +41,8 @@ def without_zeros_of(
 
 def eliminate(
     ring: Ring, generators: Sequence[Polynomial], names: Collection[str], budget: Budget
-) -> Generators:
-    """Generators of the elements free of `names`, and how they are known; the ring's order is degrevlex.
+) -> Known[Generators]:
+    """Generators of the elements free of `names`; the ring's order is degrevlex.
 
     Raises what `groebner_basis` raises.
     """
@@ -53,41 +53,41 @@ def eliminate(
 
 def _eliminate(
     ring: Ring, generators: Sequence[Polynomial], names: Collection[str], budget: Budget
-) -> Generators:
+) -> Known[Generators]:
     rest, _ = substitute_solved(generators, names)
     kept: list[Polynomial] = []
-    certainty: Certainty = "proven"
+    premises = Premises()
     for group in connected(rest):
         inside = {n for p in group for n in p.variables}
         if any(p.is_constant for p in group):
-            return (ring.one,), "proven"
+            return Known((ring.one,))
         if not inside & set(names):
             kept += group
         elif not inside <= set(names) or len(group) > 1:
-            found, how = _eliminate_group(ring, group, inside & set(names), budget)
-            kept += found
-            certainty = weakest(certainty, how)
-    return canonical(ring, kept), certainty
+            kept += premises.take(_eliminate_group(ring, group, inside & set(names), budget))
+    return premises.conclude(canonical(ring, kept))
 
 
 def _eliminate_group(
     ring: Ring, group: Sequence[Polynomial], names: Collection[str], budget: Budget
-) -> Generators:
+) -> Known[Generators]:
     positions = [ring.index(n) for n in names]
     weight = max(2, max(p.total_degree for p in group))
     while weight < _LARGEST_WEIGHT:
         budget.check("elimination")
+        premises = Premises()
         try:
-            basis = groebner_basis(ring, [_stretched(p, positions, weight) for p in group], budget)
+            stretched = [_stretched(p, positions, weight) for p in group]
+            basis = premises.take(groebner_basis(ring, stretched, budget))
         except engines.EngineFailure:
             break
         free = [p for p in basis.polynomials if not any(p.terms()[0][0][i] for i in positions)]
         if all(not p.degrees[i] > 0 for p in free for i in positions):
-            return tuple(free), basis.certainty
+            return premises.conclude(tuple(free))
         weight *= 4
     variables = tuple(ring.gens[i] for i in positions)
     answer = engines.ask(engines.Task("eliminate", ring, tuple(group), variables), budget)
-    return answer.ideals[0], answer.certainty
+    return answer.known.map(lambda ideals: ideals[0])
 
 
 def _stretched(polynomial: Polynomial, positions: Sequence[int], weight: int) -> Polynomial:

@@ -5,15 +5,15 @@ Source: D. Cox, J. Little, D. O'Shea, Ideals, Varieties, and Algorithms; engines
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
-from functools import reduce as fold
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import partial
 
 from flint import fmpz_mpoly_vec
 
 from singsym.effort.attempts import cut_short
 from singsym.effort.budget import Budget, Undecided, current
-from singsym.effort.verdict import Certainty, Verdict, weakest
+from singsym.effort.verdict import Known, Premises, Verdict, weakest
 from singsym.elimination import engines, monomial_ideals
 from singsym.elimination.basis import Basis, canonical, groebner_basis
 from singsym.elimination.elimination_orders import eliminate, without_zeros_of
@@ -30,24 +30,20 @@ class Ideal:
 
     `==` compares generators; `equals` compares ideals.  Every method takes an optional `budget` (else that of
     the enclosing `with Budget(...)` holds) and raises `Undecided` where no engine comes to an answer.
-    `given` is how the generators themselves are known, when they were computed.
+    Answers are `Known`: "proven", or "modular" where a Groebner basis rests on random primes.
     The relations of a ring's algebraic constants are not added: they are part of the equations.
 
     >>> x, y = Ring(("x", "y")).gens
     >>> I = Ideal(x.ring, (x**2 + y**2 - 1, x - y))
-    >>> I.dimension, I.degree, I.contains(2 * y**2 - 1)
-    (0, 2, True)
+    >>> I.dimension, I.contains(2 * y**2 - 1).value
+    (Known(value=0, certainty='proven'), True)
     """
 
     ring: Ring
     generators: tuple[Polynomial, ...]
-    given: Certainty = field(compare=False)
 
-    def __init__(
-        self, ring: Ring, generators: Iterable[Polynomial] = (), given: Certainty = "proven"
-    ) -> None:
+    def __init__(self, ring: Ring, generators: Iterable[Polynomial] = ()) -> None:
         object.__setattr__(self, "ring", ring)
-        object.__setattr__(self, "given", given)
         object.__setattr__(self, "generators", tuple(generators))
         for g in self.generators:
             if g.ring != ring:
@@ -74,59 +70,55 @@ class Ideal:
     def _key(self) -> tuple[Ring, frozenset[Polynomial]]:
         return self.ring, frozenset(self._canonical())
 
-    def _basis(self, budget: Budget | None = None) -> Basis:
+    def _basis(self, budget: Budget | None = None) -> Known[Basis]:
         return groebner_basis(self.ring, self.generators, budget)
 
-    def _graded_basis(self, budget: Budget | None = None) -> Basis:
+    def _graded_basis(self, budget: Budget | None = None) -> Known[Basis]:
         """A basis for a degree order, from which dimension and degree are read."""
         if self.ring.order != "lex":
             return self._basis(budget)
         graded = self.ring.with_names(self.ring.names, "degrevlex")
         return groebner_basis(graded, list(map(graded.convert, self.generators)), budget)
 
-    def groebner_basis(self, budget: Budget | None = None) -> tuple[Polynomial, ...]:
+    def groebner_basis(self, budget: Budget | None = None) -> Known[tuple[Polynomial, ...]]:
         """The reduced Groebner basis in the ring's order, primitive, smallest leading monomial first."""
-        return self._basis(budget).polynomials
+        return self._basis(budget).map(lambda basis: basis.polynomials)
 
-    def leading_monomials(self, budget: Budget | None = None) -> tuple[tuple[int, ...], ...]:
+    def leading_monomials(self, budget: Budget | None = None) -> Known[tuple[tuple[int, ...], ...]]:
         """The exponents of the leading monomials of the Groebner basis."""
-        return self._basis(budget).leading_monomials()
-
-    @property
-    def certainty(self) -> Certainty:
-        """How the Groebner basis is known: "proven", or "modular" where it rests on random primes."""
-        return weakest(self.given, self._basis().certainty)
+        return self._basis(budget).map(Basis.leading_monomials)
 
     @property
     def engine(self) -> str:
         """Who computed the Groebner basis."""
-        return self._basis().engine
+        return self._basis().value.engine
 
     # -- membership ------------------------------------------------------------------------------
 
-    def reduce(self, polynomial: Polynomial, budget: Budget | None = None) -> Polynomial:
+    def reduce(self, polynomial: Polynomial, budget: Budget | None = None) -> Known[Polynomial]:
         """The normal form up to a non-zero scalar: zero exactly for the members.
 
         >>> x, y = Ring(("x", "y")).gens
-        >>> Ideal(x.ring, (2 * x - 1,)).reduce(4 * x * y + y)
+        >>> Ideal(x.ring, (2 * x - 1,)).reduce(4 * x * y + y).value
         y
         """
         self._same_ring(polynomial)
-        return self._basis(budget).reduce(polynomial)
+        return self._basis(budget).map(lambda basis: basis.reduce(polynomial))
 
-    def normal_form(self, polynomial: Polynomial, budget: Budget | None = None) -> Polynomial:
+    def normal_form(self, polynomial: Polynomial, budget: Budget | None = None) -> Known[Polynomial]:
         """The remainder on division by the Groebner basis.
 
         >>> x, y = Ring(("x", "y")).gens
-        >>> Ideal(x.ring, (2 * x - 1,)).normal_form(4 * x * y + y)
+        >>> Ideal(x.ring, (2 * x - 1,)).normal_form(4 * x * y + y).value
         3*y
         """
         self._same_ring(polynomial)
-        basis = self._basis(budget)
+        premises = Premises()
+        basis = premises.take(self._basis(budget))
         if not polynomial or not basis.polynomials:
-            return polynomial
+            return premises.conclude(polynomial)
         if basis.is_unit:
-            return self.ring.zero
+            return premises.conclude(self.ring.zero)
         # a further variable, which nothing reduces, carries the scalar through the division
         tagged = self.ring.with_names((*self.ring.names, _fresh(self.ring)))
         vector = fmpz_mpoly_vec(
@@ -136,106 +128,119 @@ class Ideal:
         terms = remainder(start.integer(), vector).to_dict()
         tag = (0,) * len(self.ring.names)
         scalar = terms.pop((*tag, 1))
-        return self.ring.from_dict({m[:-1]: c for m, c in terms.items()}) / scalar
+        return premises.conclude(self.ring.from_dict({m[:-1]: c for m, c in terms.items()}) / scalar)
 
-    def contains(self, other: Polynomial | Ideal, budget: Budget | None = None) -> bool:
+    def contains(self, other: Polynomial | Ideal, budget: Budget | None = None) -> Known[bool]:
         """Whether a polynomial, or every element of an ideal, is in this ideal."""
         members = other.generators if isinstance(other, Ideal) else (other,)
-        generators = set(self._canonical())
-        return all(not p or p.primitive() in generators or self.reduce(p, budget).is_zero for p in members)
+        generators, premises = set(self._canonical()), Premises()
+        left = (p for p in members if p and p.primitive() not in generators)
+        inside = all(premises.take(self.reduce(p, budget)).is_zero for p in left)
+        return premises.conclude(inside)
 
-    def equals(self, other: Ideal, budget: Budget | None = None) -> bool:
+    def equals(self, other: Ideal, budget: Budget | None = None) -> Known[bool]:
         """Whether the two are the same ideal, however generated."""
         self._same_ring(other)
-        return self.groebner_basis(budget) == other.groebner_basis(budget)
+        one, two = self.groebner_basis(budget), other.groebner_basis(budget)
+        return Known(one.value == two.value, weakest(one.certainty, two.certainty))
 
-    def radical_contains(self, other: Polynomial | Ideal, budget: Budget | None = None) -> bool:
+    def radical_contains(self, other: Polynomial | Ideal, budget: Budget | None = None) -> Known[bool]:
         """Whether a power of the polynomial (of every element) is in the ideal: it vanishes on all zeros.
 
         >>> x, y = Ring(("x", "y")).gens
-        >>> Ideal(x.ring, (x**2, x * y)).radical_contains(x)
+        >>> Ideal(x.ring, (x**2, x * y)).radical_contains(x).value
         True
         """
         budget = current(budget)
         members = other.generators if isinstance(other, Ideal) else (other,)
+        premises = Premises()
         for p in members:
             self._same_ring(p)
-            if p and not self._vanishes(p, budget):
-                return False
-        return True
+            if p and not premises.take(self._vanishes(p, budget)):
+                return premises.conclude(False)
+        return premises.conclude(True)
 
-    def _vanishes(self, polynomial: Polynomial, budget: Budget) -> bool:
+    def _vanishes(self, polynomial: Polynomial, budget: Budget) -> Known[bool]:
         key = (self._key, polynomial.primitive())
 
-        def compute() -> bool:
-            reduced = polynomial.squarefree_part()
+        def compute() -> Known[bool]:
+            reduced, premises = polynomial.squarefree_part(), Premises()
             if is_known("groebner", self._key, budget):
-                reduced = self._basis(budget).reduce(reduced)
+                reduced = premises.take(self._basis(budget)).reduce(reduced)
                 if not reduced:
-                    return True
+                    return premises.conclude(True)
                 reduced = min(reduced.squarefree_part(), polynomial.squarefree_part(), key=len)
             if reduced.is_constant:
-                return self.is_unit(budget)
-            return Ideal(*without_zeros_of(self.ring, self.generators, reduced)).is_unit(budget)
+                return premises.pass_on(self.is_unit(budget))
+            off = Ideal(*without_zeros_of(self.ring, self.generators, reduced))
+            return premises.pass_on(off.is_unit(budget))
 
         return remember("vanishes", key, compute, budget)
 
-    def is_unit(self, budget: Budget | None = None) -> bool:
+    def is_unit(self, budget: Budget | None = None) -> Known[bool]:
         """Whether the ideal contains 1: there is no zero, not even a complex one."""
-        return self._core(budget)[0].is_unit
+        return self._core(budget).map(lambda core: core[0].is_unit)
 
     def unit_verdict(self, budget: Budget | None = None) -> Verdict:
         """`is_unit` with how it is known; undecided, with the reason, instead of an exception."""
         try:
-            basis = self._core(budget)[0]
+            core = self._core(budget)
         except Undecided as failure:
             cut_short("a unit ideal")
             return Verdict.undecided(str(failure))
-        certainty = weakest(self.given, basis.certainty)
+        basis = core.value[0]
         if basis.is_unit:
-            return Verdict.yes(certainty, engine=basis.engine, reason="1 is in the ideal")
-        return Verdict.no(certainty, engine=basis.engine, reason="1 is not in the ideal")
+            return Verdict.yes(core.certainty, engine=basis.engine, reason="1 is in the ideal")
+        return Verdict.no(core.certainty, engine=basis.engine, reason="1 is not in the ideal")
 
-    def _core(self, budget: Budget | None = None) -> tuple[Basis, int]:
+    def _core(self, budget: Budget | None = None) -> Known[tuple[Basis, int]]:
         """A Groebner basis that has the same quotient ring, and how many variables it lives in."""
+        premises = Premises()
         if is_known("groebner", self._key, budget) and self.ring.order != "lex":
-            return self._basis(budget), len(self.ring.names)
+            return premises.conclude((premises.take(self._basis(budget)), len(self.ring.names)))
 
-        def compute() -> tuple[Basis, int]:
+        def compute() -> Known[tuple[Basis, int]]:
             graded = self.ring.with_names(self.ring.names, "degrevlex")
             generators = list(map(graded.convert, self._canonical()))
             rest, made = substitute_solved(generators)
-            return groebner_basis(graded, rest, budget), len(self.ring.names) - len(made)
+            basis = premises.take(groebner_basis(graded, rest, budget))
+            return premises.conclude((basis, len(self.ring.names) - len(made)))
 
         return remember("core", self._key, compute, budget)
 
     # -- dimension -------------------------------------------------------------------------------
 
     @property
-    def dimension(self) -> int:
+    def dimension(self) -> Known[int]:
         """The complex dimension of the zero set; -1 for the unit ideal."""
-        basis, variables = self._core()
-        unused = len(self.ring.names) - variables
-        found = monomial_ideals.independent_sets_dimension(basis.leading_monomials(), len(self.ring.names))
-        return found if found < 0 else found - unused
+        count = len(self.ring.names)
+
+        def from_core(core: tuple[Basis, int]) -> int:
+            basis, variables = core
+            found = monomial_ideals.independent_sets_dimension(basis.leading_monomials(), count)
+            return found if found < 0 else found - (count - variables)
+
+        return self._core().map(from_core)
 
     @property
-    def degree(self) -> int:
+    def degree(self) -> Known[int]:
         """The degree of the top-dimensional part, counted with multiplicity; 0 for the unit ideal."""
-        return monomial_ideals.degree(self._graded_basis().leading_monomials(), len(self.ring.names))
+        leading = self._graded_basis().map(Basis.leading_monomials)
+        return leading.map(partial(monomial_ideals.degree, variables=len(self.ring.names)))
 
     @property
-    def is_zero_dimensional(self) -> bool:
+    def is_zero_dimensional(self) -> Known[bool]:
         """Whether there are finitely many zeros, and one at least."""
-        return self.dimension == 0
+        return self.dimension.map(lambda dimension: dimension == 0)
 
     @property
-    def vector_space_dimension(self) -> int:
+    def vector_space_dimension(self) -> Known[int]:
         """The number of complex zeros with multiplicity; raises `ValueError` where they are not finite."""
-        if self.dimension > 0:
-            raise ValueError(f"an ideal of dimension {self.dimension} has infinitely many zeros")
-        basis, _ = self._core()
-        return monomial_ideals.degree(basis.leading_monomials(), len(self.ring.names))
+        dimension = self.dimension.value
+        if dimension > 0:
+            raise ValueError(f"an ideal of dimension {dimension} has infinitely many zeros")
+        leading = self._core().map(lambda core: core[0].leading_monomials())
+        return leading.map(partial(monomial_ideals.degree, variables=len(self.ring.names)))
 
     # -- algebra ---------------------------------------------------------------------------------
 
@@ -243,122 +248,139 @@ class Ideal:
         """The ideal generated by both."""
         self._same_ring(other)
         more = other.generators if isinstance(other, Ideal) else (other,)
-        given = weakest(self.given, other.given) if isinstance(other, Ideal) else self.given
-        return Ideal(self.ring, dict.fromkeys((*self.generators, *more)), given)
+        return Ideal(self.ring, dict.fromkeys((*self.generators, *more)))
 
     def __mul__(self, other: Ideal) -> Ideal:
         """The ideal generated by the products."""
         self._same_ring(other)
         products = dict.fromkeys(f * g for f in self.generators for g in other.generators)
-        return Ideal(self.ring, products, weakest(self.given, other.given))
+        return Ideal(self.ring, products)
 
-    def intersect(self, other: Ideal, budget: Budget | None = None) -> Ideal:
+    def intersect(self, other: Ideal, budget: Budget | None = None) -> Known[Ideal]:
         """The common elements.
 
         >>> x, y = Ring(("x", "y")).gens
-        >>> Ideal(x.ring, (x,)).intersect(Ideal(x.ring, (y,)))
+        >>> Ideal(x.ring, (x,)).intersect(Ideal(x.ring, (y,))).value
         Ideal(x*y)
         """
         self._same_ring(other)
         budget = current(budget)
         for small, large in ((self, other), (other, self)):
-            if large.is_unit(budget) or large.contains(small, budget):
-                return small
+            inside = large.is_unit(budget)
+            if not inside.value:
+                inside = large.contains(small, budget)
+            if inside.value:
+                return Known(small, inside.certainty)
         name = _fresh(self.ring)
         larger = self.ring.with_names((name, *self.ring.names), "degrevlex")
         t = larger.gens[0]
         both = [t * larger.convert(f) for f in self._canonical()]
         both += [(1 - t) * larger.convert(g) for g in other._canonical()]
-        return self._from(*eliminate(larger, both, {name}, budget), other.given)
+        return self._from(eliminate(larger, both, {name}, budget))
 
-    def eliminate(self, names: Iterable[str], budget: Budget | None = None) -> Ideal:
+    def eliminate(self, names: Iterable[str], budget: Budget | None = None) -> Known[Ideal]:
         """The elements free of these variables, as an ideal of the same ring (see `restrict`).
 
         >>> t, x, y = Ring(("t", "x", "y")).gens
-        >>> Ideal(t.ring, (x - t**2, y - t**3)).eliminate({"t"})
+        >>> Ideal(t.ring, (x - t**2, y - t**3)).eliminate({"t"}).value
         Ideal(x^3 - y^2)
         """
         chosen = set(names)
         for name in chosen:
             self.ring.index(name)
         graded = self.ring.with_names(self.ring.names, "degrevlex")
-        found = eliminate(graded, list(map(graded.convert, self._canonical())), chosen, current(budget))
-        return self._from(*found)
+        generators = list(map(graded.convert, self._canonical()))
+        return self._from(eliminate(graded, generators, chosen, current(budget)))
 
     def restrict(self, ring: Ring) -> Ideal:
         """The same generators in a ring that has their variables; raises `KeyError` for a missing one."""
-        return Ideal(ring, tuple(ring.convert(g) for g in self.generators), self.given)
+        return Ideal(ring, tuple(ring.convert(g) for g in self.generators))
 
-    def saturate(self, other: Polynomial | Ideal, budget: Budget | None = None) -> Ideal:
+    def saturate(self, other: Polynomial | Ideal, budget: Budget | None = None) -> Known[Ideal]:
         """The ideal of the zeros outside the zero set of `other`: f with f g^k in the ideal for some k.
 
         >>> x, y = Ring(("x", "y")).gens
-        >>> Ideal(x.ring, (x**2 * y, x * y**2)).saturate(x)
+        >>> Ideal(x.ring, (x**2 * y, x * y**2)).saturate(x).value
         Ideal(y)
         """
         self._same_ring(other)
-        budget = current(budget)
+        budget, premises = current(budget), Premises()
         if isinstance(other, Ideal):
-            parts = [self.saturate(g, budget) for g in other._canonical()]
-            return fold(lambda a, b: a.intersect(b, budget), parts, Ideal(self.ring, (self.ring.one,)))
+            parts = [premises.take(self.saturate(g, budget)) for g in other._canonical()]
+            return premises.pass_on(intersection(self.ring, parts, budget))
         if not other:
-            return Ideal(self.ring, (self.ring.one,))
+            return Known(Ideal(self.ring, (self.ring.one,)))
         result = self
         for factor, _ in other.factors():
-            result = result._saturated_by(factor, budget)
-        return result
+            result = premises.take(result._saturated_by(factor, budget))
+        return premises.conclude(result)
 
-    def _saturated_by(self, factor: Polynomial, budget: Budget) -> Ideal:
+    def _saturated_by(self, factor: Polynomial, budget: Budget) -> Known[Ideal]:
         graded = self.ring.with_names(self.ring.names, "degrevlex")
         generators = list(map(graded.convert, self._canonical()))
         larger, system = without_zeros_of(graded, generators, graded.convert(factor))
         try:
-            return self._from(*eliminate(larger, system, {larger.names[0]}, budget))
+            return self._from(eliminate(larger, system, {larger.names[0]}, budget))
         except engines.EngineFailure:
             task = engines.Task("saturate", graded, tuple(generators), (graded.convert(factor),))
             answer = engines.ask(task, budget)
-            return self._from(answer.ideals[0], answer.certainty)
+            return self._from(answer.known.map(lambda ideals: ideals[0]))
 
-    def quotient(self, other: Polynomial | Ideal, budget: Budget | None = None) -> Ideal:
+    def quotient(self, other: Polynomial | Ideal, budget: Budget | None = None) -> Known[Ideal]:
         """The f with f g in the ideal for every g in `other`.
 
         >>> x, y = Ring(("x", "y")).gens
-        >>> Ideal(x.ring, (x**2 * y,)).quotient(x)
+        >>> Ideal(x.ring, (x**2 * y,)).quotient(x).value
         Ideal(x*y)
         """
         self._same_ring(other)
-        unit = Ideal(self.ring, (self.ring.one,))
+        premises = Premises()
         if isinstance(other, Ideal):
-            parts = [self.quotient(g, budget) for g in other._canonical()]
-            return fold(lambda a, b: a.intersect(b, budget), parts, unit)
+            parts = [premises.take(self.quotient(g, budget)) for g in other._canonical()]
+            return premises.pass_on(intersection(self.ring, parts, budget))
         if not other:
-            return unit
-        common = self.intersect(Ideal(self.ring, (other,)), budget)
-        return Ideal(self.ring, (g.exact_quotient(other) for g in common.generators), common.given)
+            return Known(Ideal(self.ring, (self.ring.one,)))
+        common = premises.take(self.intersect(Ideal(self.ring, (other,)), budget))
+        return premises.conclude(Ideal(self.ring, (g.exact_quotient(other) for g in common.generators)))
 
-    def minimal_primes(self, budget: Budget | None = None) -> tuple[Ideal, ...]:
+    def minimal_primes(self, budget: Budget | None = None) -> Known[tuple[Ideal, ...]]:
         """The minimal primes over the ideal, () for the unit ideal.
 
         Principal, linear and zero ideals need no engine; others need Singular, and raise
         `engines.EngineUnavailable` without it (see `varieties.decomposition`, which splits).
         """
         found = minimal_primes(self.ring, self._canonical(), current(budget))
-        return tuple(Ideal(self.ring, prime, self.given) for prime in found)
+        return found.map(lambda primes: tuple(Ideal(self.ring, prime) for prime in primes))
 
-    def radical(self, budget: Budget | None = None) -> Ideal:
+    def radical(self, budget: Budget | None = None) -> Known[Ideal]:
         """The polynomials of which a power is in the ideal."""
-        primes = self.minimal_primes(budget)
-        return fold(lambda a, b: a.intersect(b, budget), primes, Ideal(self.ring, (self.ring.one,)))
+        premises = Premises()
+        primes = premises.take(self.minimal_primes(budget))
+        return premises.pass_on(intersection(self.ring, primes, budget))
 
     # -- helpers ---------------------------------------------------------------------------------
 
-    def _from(self, polynomials: Sequence[Polynomial], *known: Certainty) -> Ideal:
-        generators = canonical(self.ring, (self.ring.convert(p) for p in polynomials))
-        return Ideal(self.ring, generators, weakest(self.given, *known))
+    def _from(self, generators: Known[tuple[Polynomial, ...]]) -> Known[Ideal]:
+        return generators.map(
+            lambda found: Ideal(self.ring, canonical(self.ring, map(self.ring.convert, found)))
+        )
 
     def _same_ring(self, other: Polynomial | Ideal) -> None:
         if other.ring != self.ring:
             raise ValueError(f"{other!r} is in {other.ring!r}, not in {self.ring!r}: convert it first")
+
+
+def intersection(ring: Ring, ideals: Iterable[Ideal], budget: Budget | None = None) -> Known[Ideal]:
+    """The common elements of ideals; the whole ring of none.
+
+    >>> x, y = Ring(("x", "y")).gens
+    >>> intersection(x.ring, (Ideal(x.ring, (g,)) for g in (x, y, x * y))).value
+    Ideal(x*y)
+    """
+    premises, common = Premises(), Ideal(ring, (ring.one,))
+    for ideal in ideals:
+        common = premises.take(common.intersect(ideal, budget))
+    return premises.conclude(common)
 
 
 def _fresh(ring: Ring) -> str:

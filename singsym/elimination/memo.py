@@ -17,7 +17,6 @@ from typing import Any, TypeVar
 from singsym.effort import chance, chaos, patience
 from singsym.effort.attempts import cut_short, hurries
 from singsym.effort.budget import Budget, current
-from singsym.effort.verdict import Certainty, certainties, note, weakest
 from singsym.elimination import engines
 
 Value = TypeVar("Value")
@@ -26,11 +25,10 @@ _LIMIT = 20_000
 
 
 @dataclass(frozen=True)
-class _Known:
-    """A value, how it is known, what was cut short on the way, and the time that there was for it then."""
+class _Entry:
+    """A value, what was cut short on the way to it, and the time that there was for it then."""
 
     value: Any
-    certainty: Certainty
     cuts: tuple[str, ...] = ()
     time: float = inf
 
@@ -39,7 +37,7 @@ class _Known:
         return not self.cuts or _time_left(budget) <= self.time
 
 
-_known: OrderedDict[Hashable, _Known] = OrderedDict()
+_known: OrderedDict[Hashable, _Entry] = OrderedDict()
 _lock = Lock()
 
 
@@ -67,7 +65,6 @@ def remember(
 ) -> Value:
     """The value computed before for this question and key with the engines allowed now, or a new one.
 
-    How the value is known is remembered with it, see `verdict.certainties`.
     budget: that of the computation, where it is not the current one.
 
     >>> remember("a doctest", 2, lambda: 4), remember("a doctest", 2, lambda: 5)
@@ -86,18 +83,17 @@ def remember(
                 if len(_known) > _LIMIT:
                     _known.popitem(last=False)
     else:
-        note(known.certainty)
         for what in known.cuts:
             cut_short(what)
     value: Value = known.value
     return value
 
 
-def _computed(compute: Callable[[], Any], budget: Budget | None) -> _Known:
+def _computed(compute: Callable[[], Any], budget: Budget | None) -> _Entry:
     time = _time_left(budget)
-    with certainties() as seen, hurries() as cuts:
+    with hurries() as cuts:
         value = compute()
-    return _Known(value, weakest(*seen), tuple(cuts), time)
+    return _Entry(value, tuple(cuts), time)
 
 
 def is_known(question: str, key: Hashable, budget: Budget | None = None) -> bool:

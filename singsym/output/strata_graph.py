@@ -96,7 +96,8 @@ def _near_regular(classification: Classification, pieces: Sequence[Piece], budge
         return False
     try:
         ends = (Ideal(space.ring, (*p.basis, end)) for p in pieces for end in space.nonnegative)
-        return all(ideal.is_unit(budget) for ideal in ends)
+        known = (ideal.is_unit(budget) for ideal in ends)
+        return all(unit.value and unit.is_proven for unit in known)
     except Undecided:
         return False
 
@@ -123,7 +124,8 @@ def _short(text: str) -> str:
 def _inside(small: Piece, large: Piece, budget: Budget) -> bool:
     """Whether the zeros of one ideal are among those of another."""
     inner = Ideal(small.basis[0].ring, small.basis)
-    return all(inner.radical_contains(g, budget) for g in large.basis)
+    known = (inner.radical_contains(g, budget) for g in large.basis)
+    return all(vanishes.value for vanishes in known)
 
 
 def plot_strata(classification: Classification, graph: networkx.DiGraph | None = None) -> Picture:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Literal
 import sympy
 
 from singsym.effort.budget import Budget, Undecided, current
-from singsym.effort.verdict import Verdict, certainties, weakest
+from singsym.effort.verdict import Known, Premises, Verdict
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Polynomial, Rational, Ring, as_fmpq
 from singsym.varieties.decomposition import Component, decompose
@@ -121,16 +121,21 @@ class Cell:
             and all(at(p) >= 0 for p in self.nonnegative)
         )
 
-    def pieces(self, budget: Budget | None = None) -> tuple[Component, ...]:
+    def pieces(self, budget: Budget | None = None) -> Known[tuple[Component, ...]]:
         """The components of the Zariski closure of the complex points, inequalities left out.
 
         A component that is not proven prime may be larger than the closure.  Raises `Undecided`.
         """
         single = [group[0] for group in self.exclusions if len(group) == 1]
         if any(not any(group) for group in self.exclusions):
-            return ()
-        found = decompose(self.ideal.generators, single, ring=self.ring, budget=budget)
-        return tuple(c for c in found if not any(all(map(c.vanishes, g)) for g in self.exclusions))
+            return Known(())
+        premises = Premises()
+        found = premises.take(decompose(self.ideal.generators, single, ring=self.ring, budget=budget))
+
+        def is_in(piece: Component, group: tuple[Polynomial, ...]) -> bool:
+            return all(premises.take(piece.vanishes(p)) for p in group)
+
+        return premises.conclude(tuple(c for c in found if not any(is_in(c, g) for g in self.exclusions)))
 
     def is_empty(self, field: Field = "complex", budget: Budget | None = None) -> Verdict:
         """Whether the cell has no complex (real) point; "no" over the complex numbers names a component.
@@ -139,10 +144,9 @@ class Cell:
         """
         with current(budget).part():
             try:
-                with certainties() as seen:
-                    verdict = self._is_empty()
+                verdict = self._is_empty()
                 if verdict.is_yes or (field == "complex" and not self.is_real):
-                    return replace(verdict, certainty=weakest(verdict.certainty, *seen))
+                    return verdict
                 if field == "complex":
                     return Verdict.undecided("the cell has inequalities: ask with field='real'")
                 from singsym.varieties.real.proofs.emptiness import is_empty_over_reals
@@ -152,21 +156,25 @@ class Cell:
                 return Verdict.undecided(str(reason))
 
     def _is_empty(self) -> Verdict:
-        doubts = []
-        for piece in self.pieces():
+        pieces = self.pieces()
+        whole, doubtful = Premises(pieces.certainty), False
+        for piece in pieces.value:
             if piece.prime:
                 # V(P) irreducible is not the union of smaller closed sets.
-                return Verdict.no("proven", witness=piece, reason="a component lies in no exclusion")
-            rest = piece.ideal
+                reason = "a component lies in no exclusion"
+                return Verdict.no(whole.certainty, witness=piece, reason=reason)
+            own, rest = Premises(pieces.certainty), piece.ideal
             for group in self.exclusions:
-                rest = rest.saturate(Ideal(self.ring, group))
-            if rest.certainty != "proven":
-                doubts.append("a Groebner basis rests on random primes")
-            elif not rest.is_unit():
-                return Verdict.no("proven", witness=piece, reason="the saturated ideal is not 1")
-        if doubts:
-            return Verdict.undecided(doubts[0])
-        return Verdict.yes("proven", reason="every component lies in an exclusion")
+                rest = own.take(rest.saturate(Ideal(self.ring, group)))
+            is_unit = own.take(rest.is_unit())
+            if own.certainty != "proven":
+                doubtful = True
+            elif not is_unit:
+                return Verdict.no(witness=piece, reason="the saturated ideal is not 1")
+            whole.rest_on(own.certainty)
+        if doubtful:
+            return Verdict.undecided("a Groebner basis rests on random primes")
+        return Verdict.yes(whole.certainty, reason="every component lies in an exclusion")
 
     @property
     def system(self) -> RealSystem:

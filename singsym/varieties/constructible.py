@@ -6,12 +6,13 @@ Source: Chevalley's theorem and the algorithms of Cox, Little, O'Shea, "Ideals, 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 from singsym.effort.budget import Budget, Undecided, current
-from singsym.effort.verdict import Verdict, weakest
+from singsym.effort.verdict import Known, Premises, Verdict, weakest
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Polynomial, Rational, Ring
 from singsym.varieties.cells import Cell, Field
@@ -34,7 +35,7 @@ class ConstructibleSet:
     >>> cross, axis = ConstructibleSet.zeros(R, x * y), ConstructibleSet.zeros(R, y)
     >>> (cross - axis).is_subset(ConstructibleSet.zeros(R, x)).answer
     <Answer.YES: 'yes'>
-    >>> (cross - axis).closure()
+    >>> (cross - axis).closure().value
     {x = 0}
     """
 
@@ -182,19 +183,21 @@ class ConstructibleSet:
 
     # -- geometry --------------------------------------------------------------------------------
 
-    def components(self, budget: Budget | None = None) -> tuple[Component, ...]:
+    def components(self, budget: Budget | None = None) -> Known[tuple[Component, ...]]:
         """The components of the Zariski closure over Q, inequalities left out; raises `Undecided`."""
         with current(budget).part():
-            return prune(piece for cell in self.cells for piece in _closed_pieces(cell))
+            premises = Premises()
+            pieces = [piece for cell in self.cells for piece in premises.take(_closed_pieces(cell))]
+            return premises.pass_on(prune(pieces))
 
     @property
-    def dimension(self) -> int:
+    def dimension(self) -> Known[int]:
         """The dimension of the complex points, inequalities left out; -1 for none; raises `Undecided`."""
-        return max((c.dimension for c in self.components()), default=-1)
+        return self.components().map(lambda found: max((c.dimension for c in found), default=-1))
 
-    def closure(self, budget: Budget | None = None) -> ConstructibleSet:
+    def closure(self, budget: Budget | None = None) -> Known[ConstructibleSet]:
         """The Zariski closure over Q of the complex points, inequalities left out; raises `Undecided`."""
-        return ConstructibleSet.from_components(self.ring, self.components(budget))
+        return self.components(budget).map(partial(ConstructibleSet.from_components, self.ring))
 
     def sample(self, n: int = 1, *, seed: int = 0, budget: Budget | None = None) -> tuple[Witness, ...]:
         """Up to n certified real points, found by numerical search; none found proves nothing.
@@ -235,13 +238,18 @@ class ConstructibleSet:
         return f"${union or chr(92) + 'emptyset'}$"
 
 
-def _closed_pieces(cell: Cell) -> Iterator[Component]:
+def _closed_pieces(cell: Cell) -> Known[tuple[Component, ...]]:
     """The pieces of a cell's Zariski closure: those not proven prime are saturated by the exclusions."""
-    for piece in cell.pieces():
+    premises, found = Premises(), list[Component]()
+    for piece in premises.take(cell.pieces()):
+        if piece.prime or not cell.exclusions:
+            found.append(piece)
+            continue
         ideal = piece.ideal
-        for group in () if piece.prime else cell.exclusions:
-            ideal = ideal.saturate(Ideal(cell.ring, group))
-        yield piece if ideal is piece.ideal else Component(ideal, False, ideal.dimension)
+        for group in cell.exclusions:
+            ideal = premises.take(ideal.saturate(Ideal(cell.ring, group)))
+        found.append(Component(ideal, False, premises.take(ideal.dimension)))
+    return premises.conclude(tuple(found))
 
 
 def _both(first: Verdict, second: Verdict) -> Verdict:

@@ -6,7 +6,7 @@ and the order of work measured on linkages: factor, branch, substitute, and exte
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
@@ -14,6 +14,7 @@ from singsym.effort.attempts import attempt
 from singsym.effort.budget import Budget, current
 from singsym.effort.patience import SPLITTING
 from singsym.effort.progress import Sink, report, to
+from singsym.effort.verdict import Known, Premises, weakest
 from singsym.elimination import engines
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.memo import remember
@@ -44,7 +45,7 @@ class Component:
     `PurePiece` (see `purity`).
 
     >>> x, y = Ring(("x", "y")).gens
-    >>> decompose([x * y], ring=x.ring)
+    >>> decompose([x * y], ring=x.ring).value
     (Component(x = 0, dimension 1), Component(y = 0, dimension 1))
     """
 
@@ -72,13 +73,18 @@ class Component:
         doubt = "" if self.prime else ", not proven prime"
         return f"Component({shown}{more} = 0, dimension {self.dimension}{doubt})"
 
-    def contains(self, other: Component) -> bool:
-        """Whether V(other) is proven to lie in V(self)."""
-        return all(other.vanishes(p) for p in self.generators)
+    def contains(self, other: Component) -> Known[bool]:
+        """Whether V(other) is seen to lie in V(self)."""
+        premises = Premises()
+        return premises.conclude(all(premises.take(other.vanishes(p)) for p in self.generators))
 
-    def vanishes(self, p: Polynomial) -> bool:
+    def vanishes(self, p: Polynomial) -> Known[bool]:
         """Whether p is zero on the whole piece (exact)."""
-        return self.ideal.contains(p) or (not self.prime and self.ideal.radical_contains(p))
+        inside = self.ideal.contains(p)
+        if inside.value or self.prime:
+            return inside
+        known = self.ideal.radical_contains(p)
+        return Known(known.value, weakest(inside.certainty, known.certainty))
 
 
 def decompose(
@@ -88,7 +94,7 @@ def decompose(
     ring: Ring,
     budget: Budget | None = None,
     progress: Sink | None = None,
-) -> tuple[Component, ...]:
+) -> Known[tuple[Component, ...]]:
     """The pieces of V(equations) on which no polynomial of `nonzero` vanishes throughout.
 
     Their union contains V(equations) minus V(product of nonzero), over the complex numbers, and none contains
@@ -96,53 +102,68 @@ def decompose(
     is left as it is, not proven prime or of one dimension.  Raises `Undecided` where the budget ends.
 
     >>> x, y = Ring(("x", "y")).gens
-    >>> decompose([x**2 - y**2, x * y - y], [y], ring=x.ring)
+    >>> decompose([x**2 - y**2, x * y - y], [y], ring=x.ring).value
     (Component(y + 1, x - 1 = 0, dimension 0), Component(y - 1, x - 1 = 0, dimension 0))
     """
     forbidden = irreducible_factors(ring.convert(p) for p in nonzero)
     if forbidden is None:
-        return ()
+        return Known(())
+    premises = Premises()
     given = (*ring.relations, *(ring.convert(p) for p in equations))
     with current(budget).part(), to(progress):
-        full = [_in_ring(piece, ring) for piece in _branch(ring, given, forbidden)]
-        return prune(c for c in full if not any(c.vanishes(p) for p in forbidden))
+        pieces = premises.take(_branch(ring, given, forbidden))
+        full = [premises.take(_in_ring(piece, ring)) for piece in pieces]
+        kept = [c for c in full if not any(premises.take(c.vanishes(p)) for p in forbidden)]
+        return premises.pass_on(prune(kept))
 
 
-def prune(components: Iterable[Component]) -> tuple[Component, ...]:
+def prune(components: Iterable[Component]) -> Known[tuple[Component, ...]]:
     """Leave out every piece that lies in another one; sorted by dimension, highest first."""
     ordered = sorted(components, key=lambda c: (-c.dimension, not c.prime, str(c.generators)))
     kept: list[Component] = []
+    premises = Premises()
     for c in ordered:
-        if not any(k.contains(c) for k in kept):
+        if not any(premises.take(k.contains(c)) for k in kept):
             kept.append(c)
-    return tuple(kept)
+    return premises.conclude(tuple(kept))
 
 
-def _in_ring(piece: Component, ring: Ring) -> Component:
+def _in_ring(piece: Component, ring: Ring) -> Known[Component]:
     """The cylinder over a piece, in a larger ring, with its Groebner basis as generators."""
     free = len(ring.names) - len(piece.ideal.ring.names)
-    ideal = Ideal(ring, tuple(ring.convert(p) for p in piece.generators), piece.ideal.given)
-    basis = ideal.groebner_basis()
-    return Component(Ideal(ring, basis, ideal.certainty), piece.prime, piece.dimension + free, piece.purity)
+    premises = Premises()
+    basis = premises.take(Ideal(ring, map(ring.convert, piece.generators)).groebner_basis())
+    turned = Component(Ideal(ring, basis), piece.prime, piece.dimension + free, piece.purity)
+    return premises.conclude(turned)
+
+
+def _all_in_ring(pieces: Iterable[Component], ring: Ring) -> Known[tuple[Component, ...]]:
+    """The cylinders over pieces that lie in no other one."""
+    premises = Premises()
+    turned = [premises.take(_in_ring(piece, ring)) for piece in pieces]
+    return premises.pass_on(prune(turned))
 
 
 # -- branching on the given equations ------------------------------------------------------------------
 
 
-def _branch(ring: Ring, equations: tuple[Polynomial, ...], nonzero: frozenset[Polynomial]) -> list[Component]:
+def _branch(
+    ring: Ring, equations: tuple[Polynomial, ...], nonzero: frozenset[Polynomial]
+) -> Known[list[Component]]:
     """Branch on factors and substitute until every equation is irreducible, then work level by level."""
     current().check("decomposition")
     factored = factor_equations(equations, nonzero)
     if factored is None:
-        return []
+        return Known([])
+    premises = Premises()
     if factored and len(factored[-1]) > 1:
         chosen = min((f for f in factored if len(f) > 1), key=lambda f: (-len(f), sum(map(len, f))))
         rest = [_product(f, ring) for f in factored if f is not chosen]
         found: list[Component] = []
         for i, f in enumerate(chosen):
             # The part of V(f) inside an earlier factor is in an earlier branch.
-            found += _branch(ring, (*rest, f), nonzero | frozenset(chosen[:i]))
-        return found
+            found += premises.take(_branch(ring, (*rest, f), nonzero | frozenset(chosen[:i])))
+        return premises.conclude(found)
     single = tuple(f[0] for f in factored)
     substitution = linear_substitution(single)
     if substitution is None:
@@ -150,13 +171,10 @@ def _branch(ring: Ring, equations: tuple[Polynomial, ...], nonzero: frozenset[Po
     smaller = ring.with_names(n for n in ring.names if n != substitution.name)
     remaining = irreducible_factors(substitution.apply(nonzero))
     if remaining is None:
-        return []
-    pieces = _branch(
-        smaller,
-        tuple(smaller.convert(p) for p in substitution.apply(single)),
-        frozenset(smaller.convert(p) for p in remaining),
-    )
-    return [_lifted(piece, substitution.equation) for piece in pieces]
+        return Known([])
+    equations = tuple(smaller.convert(p) for p in substitution.apply(single))
+    pieces = premises.take(_branch(smaller, equations, frozenset(smaller.convert(p) for p in remaining)))
+    return premises.conclude([_lifted(piece, substitution.equation) for piece in pieces])
 
 
 def _product(factors: Sequence[Polynomial], ring: Ring) -> Polynomial:
@@ -172,16 +190,15 @@ def _lifted(piece: Component, equation: Polynomial) -> Component:
     ring = equation.ring.with_names(n for n in equation.ring.names if n in names)
     free = len(ring.names) - len(piece.ideal.ring.names) - 1
     generators = (*(ring.convert(p) for p in piece.generators), ring.convert(equation))
-    ideal = Ideal(ring, generators, piece.ideal.given)
-    return Component(ideal, piece.prime, piece.dimension + free, piece.purity)
+    return Component(Ideal(ring, generators), piece.prime, piece.dimension + free, piece.purity)
 
 
 def _by_levels(
     ring: Ring, equations: tuple[Polynomial, ...], nonzero: frozenset[Polynomial]
-) -> list[Component]:
+) -> Known[list[Component]]:
     """Decompose the equations of the first few variables, then extend every piece by the next ones."""
     pieces = [Component(Ideal(ring.with_names(()), ()), True, 0, "Cohen-Macaulay")]
-    steps = levels(equations)
+    steps, premises = levels(equations), Premises()
     for count, level in enumerate(steps):
         report("decompose", f"{len(level.names)} variables, {len(pieces)} pieces", count, len(steps))
         inner = ring.with_names(level.names)
@@ -193,9 +210,10 @@ def _by_levels(
             fresh = len(level.names) - len(piece.ideal.ring.names)
             least = piece.dimension + fresh - len(added) if piece.is_pure else 0
             macaulay = piece.purity == "Cohen-Macaulay"
-            found += _refine(_System(inner, (*base, *added), known, least, macaulay))
-        pieces = list(prune(_in_ring(piece, inner) for piece in found))
-    return pieces
+            system = _System(inner, (*base, *added), known, least, macaulay)
+            found += premises.take(_refine(system))
+        pieces = list(premises.take(_all_in_ring(found, inner)))
+    return premises.conclude(pieces)
 
 
 # -- one ideal -----------------------------------------------------------------------------------------
@@ -223,17 +241,17 @@ class _System:
         return replace(self, equations=tuple(equations), macaulay=self.macaulay and same_ideal)
 
 
-def _refine(system: _System) -> tuple[Component, ...]:
+def _refine(system: _System) -> Known[tuple[Component, ...]]:
     """Split an ideal by factors of its equations, of its basis, and of eliminants, until it is prime."""
     current().check("decomposition")
     key = replace(system, equations=tuple(dict.fromkeys(system.equations)))
     return remember("decompose", key, lambda: _refined(system))
 
 
-def _refined(system: _System) -> tuple[Component, ...]:
+def _refined(system: _System) -> Known[tuple[Component, ...]]:
     factored = factor_equations(system.equations, system.nonzero)
     if factored is None:
-        return ()
+        return Known(())
     # many reducible equations come from a basis: take a new one before branching on the next
     if 0 < sum(len(f) > 1 for f in factored) < 3:
         return _by_factors(system, factored[-1])
@@ -246,97 +264,119 @@ def _refined(system: _System) -> tuple[Component, ...]:
     smaller = system.ring.with_names(n for n in system.ring.names if n != substitution.name)
     nonzero = irreducible_factors(substitution.apply(system.nonzero))
     if nonzero is None:
-        return ()
+        return Known(())
     reduced = tuple(smaller.convert(p) for p in substitution.apply(single))
     forbidden = frozenset(smaller.convert(p) for p in nonzero)
-    pieces = _refine(_System(smaller, reduced, forbidden, system.least, system.macaulay))
-    return tuple(_lifted(piece, substitution.equation) for piece in pieces)
+    premises = Premises()
+    pieces = premises.take(_refine(_System(smaller, reduced, forbidden, system.least, system.macaulay)))
+    return premises.conclude(tuple(_lifted(piece, substitution.equation) for piece in pieces))
 
 
-def _by_factors(system: _System, factors: Sequence[Polynomial]) -> tuple[Component, ...]:
-    pieces = [p for i, f in enumerate(factors) for p in _refine(system.plus(f, factors[:i]))]
-    return prune(_in_ring(piece, system.ring) for piece in pieces)
+def _by_factors(system: _System, factors: Sequence[Polynomial]) -> Known[tuple[Component, ...]]:
+    premises = Premises()
+    pieces = [p for i, f in enumerate(factors) for p in premises.take(_refine(system.plus(f, factors[:i])))]
+    return premises.pass_on(_all_in_ring(pieces, system.ring))
 
 
-def _by_basis(system: _System) -> tuple[Component, ...]:
-    ideal = Ideal(system.ring, system.equations)
-    basis = ideal.groebner_basis()
+def _by_basis(system: _System) -> Known[tuple[Component, ...]]:
+    ideal, premises = Ideal(system.ring, system.equations), Premises()
+    basis = premises.take(ideal.groebner_basis())
     if not basis:
-        return (Component(ideal, True, len(system.ring.names), "Cohen-Macaulay"),)
+        whole = Component(ideal, True, len(system.ring.names), "Cohen-Macaulay")
+        return premises.conclude((whole,))
     if basis[0].is_constant:
-        return ()
+        return premises.conclude(())
     dimension = len(independent_variables(leading_exponents(basis), len(system.ring.names)))
-    if dimension < system.least or any(ideal.contains(p) for p in system.nonzero):
-        return ()
+    if dimension < system.least or any(premises.take(ideal.contains(p)) for p in system.nonzero):
+        return premises.conclude(())
     factored = factor_equations(basis, system.nonzero)
     if factored is None:
-        return ()
+        return premises.conclude(())
     system = system.replaced(basis, same_ideal=True)
-    if len(factored[-1]) > 1:
-        return _by_factors(system, factored[-1])
     single = {f[0] for f in factored}
-    if not single.issuperset(basis):
-        return _refine(system.replaced((*basis, *single), same_ideal=False))
-    if linear_substitution(basis) is not None:
-        return _refine(system)
-    return _by_eliminant(system, Ideal(system.ring, basis, ideal.certainty), dimension)
+    if len(factored[-1]) > 1:
+        found = _by_factors(system, factored[-1])
+    elif not single.issuperset(basis):
+        found = _refine(system.replaced((*basis, *single), same_ideal=False))
+    elif linear_substitution(basis) is not None:
+        found = _refine(system)
+    else:
+        found = _by_eliminant(system, premises.conclude(Ideal(system.ring, basis)), dimension)
+    return premises.pass_on(found)
 
 
-def _by_eliminant(system: _System, ideal: Ideal, dimension: int) -> tuple[Component, ...]:
-    ring, proven = system.ring, ideal.certainty == "proven"
+def _by_eliminant(system: _System, given: Known[Ideal], dimension: int) -> Known[tuple[Component, ...]]:
+    """The pieces of an ideal given by its Groebner basis; none is called prime without a proof of that."""
+    premises = Premises()
+    ideal = premises.take(given)
+    premises.rest_on(ideal.groebner_basis().certainty)
+    proven = premises.certainty == "proven"
     if len(ideal.generators) == 1:
-        return (Component(ideal, proven, dimension, "Cohen-Macaulay"),)
-    found = _analysed(ideal, system.macaulay and system.least == dimension)
-    if found.factors and not any(ideal.contains(f) for f in found.factors):
-        pieces = [_in_ring(p, ring) for f in found.factors for p in _refine(system.plus(f))]
-        return prune(pieces)
-    if not found.prime and (primes := _by_engine(ideal)):
-        return primes
+        return premises.conclude((Component(ideal, proven, dimension, "Cohen-Macaulay"),))
+    found = premises.take(_analysed(ideal, system.macaulay and system.least == dimension))
+    if found.factors and not any(premises.take(ideal.contains(f)) for f in found.factors):
+        pieces = [p for f in found.factors for p in premises.take(_refine(system.plus(f)))]
+        return premises.pass_on(_all_in_ring(pieces, system.ring))
+    if not found.prime and (primes := premises.take(_by_engine(given))):
+        return premises.conclude(primes)
     purity: Purity = "Cohen-Macaulay" if found.macaulay else "unmixed"
     if found.beside is not None and found.beside.is_constant:
-        return (Component(ideal, proven and found.prime, dimension, purity),)
+        return premises.conclude((Component(ideal, proven and found.prime, dimension, purity),))
     if found.beside is not None and len(found.beside) <= _LONGEST_CUT:
         main = _saturated(ideal, found.beside)
         if main is not None:
-            prime = found.prime and main.certainty == "proven"
-            component = Component(main, prime, dimension, purity)
-            return prune((component, *_smaller(system, ideal, component, found.beside)))
-    primes = _by_engine(ideal) if found.prime else ()
-    return primes or (Component(ideal, False, dimension),)
+            basis = main.value.groebner_basis()
+            prime = found.prime and given.is_proven and main.is_proven and basis.is_proven
+            component = Component(premises.take(main), prime, dimension, purity)
+            others = premises.take(_smaller(system, ideal, component, found.beside))
+            return premises.pass_on(prune((component, *others)))
+    primes = premises.take(_by_engine(given)) if found.prime else ()
+    return premises.conclude(primes or (Component(ideal, False, dimension),))
 
 
-def _smaller(system: _System, ideal: Ideal, main: Component, beside: Polynomial) -> Iterator[Component]:
+def _smaller(
+    system: _System, ideal: Ideal, main: Component, beside: Polynomial
+) -> Known[tuple[Component, ...]]:
     """Pieces that hold the zeros of an ideal outside its main part, all of them zeros of `beside`."""
+    premises, found = Premises(), list[Component]()
     # where the main part has the least dimension, what is smaller lies in other branches
-    outside = [g for g in main.generators if not ideal.contains(g)] if main.dimension > system.least else []
-    for g in outside:
+    for g in main.generators if main.dimension > system.least else ():
+        if premises.take(ideal.contains(g)):
+            continue
         rest = _saturated(ideal, g)
-        apart = system.plus(beside) if rest is None else system.replaced(rest.generators, same_ideal=False)
-        for piece in _refine(apart):
-            yield _in_ring(piece, system.ring)
+        apart = system.plus(beside)
+        if rest is not None:
+            apart = system.replaced(premises.take(rest).generators, same_ideal=False)
+        pieces = premises.take(_refine(apart))
+        found += [premises.take(_in_ring(piece, system.ring)) for piece in pieces]
         if rest is None:
-            return
+            break
+    return premises.conclude(tuple(found))
 
 
-def _saturated(ideal: Ideal, polynomial: Polynomial) -> Ideal | None:
+def _saturated(ideal: Ideal, polynomial: Polynomial) -> Known[Ideal] | None:
     """The ideal of the zeros outside those of a polynomial; None where it is not found soon."""
     with attempt("decomposition", SPLITTING.work):
         return ideal.saturate(polynomial)
     return None
 
 
-def _analysed(ideal: Ideal, unmixed: bool) -> Splitting:
+def _analysed(ideal: Ideal, unmixed: bool) -> Known[Splitting]:
     with attempt("decomposition", SPLITTING.work):
         return analyse(ideal, macaulay=unmixed)
     # what was known before is no less true
-    return Splitting(beside=ideal.ring.one, macaulay=True) if unmixed else Splitting()
+    return Known(Splitting(beside=ideal.ring.one, macaulay=True) if unmixed else Splitting())
 
 
-def _by_engine(ideal: Ideal) -> tuple[Component, ...]:
+def _by_engine(ideal: Known[Ideal]) -> Known[tuple[Component, ...]]:
     """The minimal primes by Singular where it is present and quick, else nothing."""
     if not engines.has("singular"):
-        return ()
+        return Known(())
     with attempt("decomposition", SPLITTING.work):
-        primes = ideal.minimal_primes()
-        return prune(Component(p, p.certainty == "proven", p.dimension) for p in primes)
-    return ()
+        premises, found = Premises(), list[Component]()
+        for prime in premises.take(premises.take(ideal).minimal_primes()):
+            basis, dimension = prime.groebner_basis(), premises.take(prime.dimension)
+            premises.rest_on(basis.certainty)
+            found.append(Component(prime, ideal.is_proven and basis.is_proven, dimension))
+        return premises.pass_on(prune(found))
+    return Known(())

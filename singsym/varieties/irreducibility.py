@@ -15,6 +15,7 @@ from flint import fmpq, fmpq_mat, fmpq_poly, fmpz_mat, nmod_mat
 
 from singsym.effort import chance
 from singsym.effort.budget import current
+from singsym.effort.verdict import Known, Premises
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Exponents, Polynomial, Ring
 from singsym.varieties.real.points.quotient_algebra import Algebra, quotient_algebra, standard_monomials
@@ -111,17 +112,17 @@ class Coordinates:
         return not any(any(m[self.split :]) for m in leading_exponents(self.basis))
 
 
-def coordinates(ideal: Ideal, rng: Random) -> Iterator[Coordinates]:
+def coordinates(ideal: Ideal, rng: Random) -> Iterator[Known[Coordinates]]:
     """The ideal in its own coordinates, independent variables last, then after small linear changes."""
-    ring = ideal.ring
-    basis = ideal.groebner_basis()
+    ring, premises = ideal.ring, Premises()
+    basis = premises.take(ideal.groebner_basis())
     chosen = independent_variables(leading_exponents(basis), len(ring.names))
     last = tuple(ring.names[i] for i in chosen)
     first = tuple(n for n in ring.names if n not in last)
     turned = Ring(first + last, "degrevlex", ring.constants)
     if turned.names != ring.names:
-        basis = Ideal(turned, tuple(turned.convert(p) for p in basis)).groebner_basis()
-    yield Coordinates(turned, basis, len(last), ring)
+        basis = premises.take(Ideal(turned, tuple(turned.convert(p) for p in basis)).groebner_basis())
+    yield premises.conclude(Coordinates(turned, basis, len(last), ring))
     if not last:
         return
     constants = {c.name for c in ring.constants}
@@ -131,37 +132,39 @@ def coordinates(ideal: Ideal, rng: Random) -> Iterator[Coordinates]:
             u: sum((turned.gen(n) * rng.choice((-1, 1, 2)) for n in movable), start=turned.zero) for u in last
         }
         there = {u: turned.gen(u) + s for u, s in shift.items()}
-        changed = Ideal(turned, tuple(p.substitute(there) for p in basis)).groebner_basis()
+        changed = premises.take(Ideal(turned, tuple(p.substitute(there) for p in basis)).groebner_basis())
         images = tuple((u, ring.convert(turned.gen(u) - s)) for u, s in shift.items())
-        yield Coordinates(turned, changed, len(last), ring, images)
+        yield premises.conclude(Coordinates(turned, changed, len(last), ring, images))
 
 
-def analyse(ideal: Ideal, *, macaulay: bool = False, seed: int = 0) -> Splitting:
+def analyse(ideal: Ideal, *, macaulay: bool = False, seed: int = 0) -> Known[Splitting]:
     """Prove an ideal prime over Q, or split its variety, or find what is beside its main part, or nothing.
 
     macaulay: whether the ideal is known to be Cohen-Macaulay.
 
     >>> x, y, z = Ring(("x", "y", "z")).gens
-    >>> analyse(Ideal(x.ring, (x**2 - 2, y**2 - 2, z))).factors
+    >>> analyse(Ideal(x.ring, (x**2 - 2, y**2 - 2, z))).value.factors
     (x - y, x*y + 2)
-    >>> analyse(Ideal(x.ring, (x**2 - 2, y**2 - 3, z))).prime
+    >>> analyse(Ideal(x.ring, (x**2 - 2, y**2 - 3, z))).value.prime
     True
-    >>> analyse(Ideal(x.ring, (x * z, y * z))).beside is None
+    >>> analyse(Ideal(x.ring, (x * z, y * z))).value.beside is None
     False
     """
     rng = chance.random("splitting", seed)
     best = Splitting(beside=ideal.ring.one, macaulay=True) if macaulay else Splitting()
-    for place in coordinates(ideal, rng):
+    premises = Premises()
+    for known in coordinates(ideal, rng):
         current().check("decomposition")
-        found = _at_fibre(place, rng)
+        place = premises.take(known)
+        found = premises.take(_at_fibre(place, rng))
         if found.factors:
-            return Splitting(tuple(place.back(f).primitive() for f in found.factors))
+            return premises.conclude(Splitting(tuple(place.back(f).primitive() for f in found.factors)))
         best = replace(best, prime=best.prime or found.prime)
         if best.beside is None and place.is_finite:
             best = replace(best, beside=_beside(place, rng), macaulay=place.is_free or place.dimension == 1)
         if best.prime and best.beside is not None:
-            return best
-    return best
+            break
+    return premises.conclude(best)
 
 
 def _beside(place: Coordinates, rng: Random) -> Polynomial | None:
@@ -185,7 +188,7 @@ def _beside(place: Coordinates, rng: Random) -> Polynomial | None:
     return place.back(product)
 
 
-def _at_fibre(place: Coordinates, rng: Random) -> Splitting:
+def _at_fibre(place: Coordinates, rng: Random) -> Known[Splitting]:
     """One rational fibre u = u0.
 
     Lemma: if Q[x]/I is finite over Q[u], u is independent modulo I and the algebra of one fibre is a field
@@ -197,32 +200,33 @@ def _at_fibre(place: Coordinates, rng: Random) -> Splitting:
     ring = place.ring
     inner = ring.with_names(ring.names[: place.split])
     if not inner.names:
-        return Splitting(prime=True)
+        return Known(Splitting(prime=True))
+    premises = Premises()
     for attempt in range(2):
         values = {
             u: fmpq(rng.randint(2, 9 + 20 * attempt), rng.choice((1, 1, 2)))
             for u in ring.names[place.split :]
         }
         special = tuple(inner.convert(p.substitute(values)) for p in place.basis)
-        basis = Ideal(inner, tuple(p for p in special if p)).groebner_basis()
+        basis = premises.take(Ideal(inner, tuple(p for p in special if p)).groebner_basis())
         if len(independent_variables(leading_exponents(basis), len(inner.names))) or basis[0].is_constant:
             continue
         if len(standard_monomials(leading_exponents(basis), len(inner.names))) > _LARGEST_FIBRE:
-            return Splitting()
+            return premises.conclude(Splitting())
         fibre = quotient_algebra(inner, basis)
         for count, form in enumerate(_forms(inner, rng)):
             minimal = _minimal_polynomial(fibre, form)
             factors = minimal.factor()[1]
             if len(factors) == 1 and factors[0][1] == 1:
                 if minimal.degree() == fibre.dimension:
-                    return Splitting(prime=place.is_finite)
+                    return premises.conclude(Splitting(prime=place.is_finite))
                 continue
             if not count:
                 continue  # a simpler form gives simpler factors
             pieces = _lift(place, ring.convert(form), factors)
             if pieces:
-                return Splitting(pieces)
-    return Splitting()
+                return premises.conclude(Splitting(pieces))
+    return premises.conclude(Splitting())
 
 
 def _minimal_polynomial(fibre: Algebra, form: Polynomial) -> fmpq_poly:

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
 from singsym.effort.budget import Undecided
-from singsym.effort.verdict import Verdict
+from singsym.effort.verdict import Known, Premises, Verdict
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.cells import Cell
@@ -20,7 +20,10 @@ _MOST_STEPS = 60
 
 @dataclass(frozen=True)
 class Projection:
-    """An image under a projection, and whether it is exact for the complex points, else their closure."""
+    """An image under a projection, and whether it is exact for the complex points, else their closure.
+
+    The certainty of `exact` is that of the image, too.
+    """
 
     image: ConstructibleSet
     exact: Verdict
@@ -31,11 +34,15 @@ class Projection:
 
 @dataclass
 class _Work:
-    """Cells still to be projected, in rings that may have further variables, and those that are done."""
+    """Cells still to be projected, in rings that may have further variables, and those that are done.
+
+    premises: what those rest on.
+    """
 
     target: Ring
     waiting: list[Cell]
     done: list[Cell] = field(default_factory=list)
+    premises: Premises = field(default_factory=Premises)
     steps: int = 0
 
 
@@ -62,14 +69,15 @@ def project(given: ConstructibleSet, names: Sequence[str]) -> Projection:
         try:
             if work.steps > _MOST_STEPS:
                 reason = "the exact image has too many cells"
-                work.done += _closures(cell, target)
+                work.done += _closures(cell, work)
             else:
                 _project_one(cell, work)
         except Undecided as failure:
             reason = str(failure)
             work.done.append(_moved(Cell(Ideal(target), (), cell.positive, cell.nonnegative), target))
     image = ConstructibleSet(target, tuple(dict.fromkeys(work.done)))
-    return Projection(image, Verdict.no(reason=reason) if reason else Verdict.yes())
+    known = work.premises.certainty
+    return Projection(image, Verdict.no(known, reason=reason) if reason else Verdict.yes(known))
 
 
 def _on_kept(cell: Cell, kept: set[str]) -> Cell:
@@ -80,12 +88,12 @@ def _on_kept(cell: Cell, kept: set[str]) -> Cell:
     )
 
 
-def _closures(cell: Cell, target: Ring) -> Iterator[Cell]:
+def _closures(cell: Cell, work: _Work) -> Iterator[Cell]:
     """The closures of the images of a cell's pieces."""
-    for piece in cell.pieces():
-        gone = set(piece.ideal.ring.names) - set(target.names)
-        image = Cell(piece.ideal.eliminate(gone), (), cell.positive, cell.nonnegative)
-        yield _moved(image, target)
+    for piece in work.premises.take(cell.pieces()):
+        gone = set(piece.ideal.ring.names) - set(work.target.names)
+        ideal = work.premises.take(piece.ideal.eliminate(gone))
+        yield _moved(Cell(ideal, (), cell.positive, cell.nonnegative), work.target)
 
 
 def _project_one(cell: Cell, work: _Work) -> None:
@@ -99,11 +107,12 @@ def _project_one(cell: Cell, work: _Work) -> None:
         rest = replace(cell, exclusions=tuple(g for g in cell.exclusions if g != group))
         work.waiting += [_with_inverse(rest, p) for p in group if p]
         return
-    for piece in cell.pieces():
-        basis = piece.ideal.groebner_basis()
+    take = work.premises.take
+    for piece in take(cell.pieces()):
+        basis = take(piece.ideal.groebner_basis())
         name = min(extra, key=lambda n: _difficulty(basis, n))
-        heads = _leading_coefficients(piece.ideal, name)
-        image = replace(cell, ideal=piece.ideal.eliminate({name}))
+        heads = take(_leading_coefficients(piece.ideal, name))
+        image = replace(cell, ideal=take(piece.ideal.eliminate({name})))
         smaller = cell.ring.with_names(n for n in cell.ring.names if n != name)
         if heads and not any(a.is_constant for a in heads):
             # The extension theorem: a zero of the elimination ideal lifts where one of these is not zero.
@@ -120,18 +129,18 @@ def _difficulty(basis: Sequence[Polynomial], name: str) -> tuple[int, int]:
     return min((p.coefficient(name, d).total_degree, d) for d, p in degrees)
 
 
-def _leading_coefficients(ideal: Ideal, name: str) -> tuple[Polynomial, ...]:
+def _leading_coefficients(ideal: Ideal, name: str) -> Known[tuple[Polynomial, ...]]:
     """The leading coefficients in one variable of generators, none of them in the ideal."""
     found: dict[Polynomial, None] = {}
-    v = ideal.ring.gen(name)
-    for p in ideal.groebner_basis():
+    v, premises = ideal.ring.gen(name), Premises()
+    for p in premises.take(ideal.groebner_basis()):
         while (d := p.degree(name)) > 0:
             head = p.coefficient(name, d)
-            if not ideal.contains(head):
+            if not premises.take(ideal.contains(head)):
                 found[head.primitive()] = None
                 break
             p = p - head * v**d
-    return tuple(found)
+    return premises.conclude(tuple(found))
 
 
 def _with_inverse(cell: Cell, p: Polynomial) -> Cell:

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from singsym.effort.budget import Undecided
+from singsym.effort.verdict import Known
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.decomposition import Component
@@ -73,20 +74,22 @@ Component(x*z, y*z = 0, dimension 2, not proven prime)
 
 def pure_or_whole(
     components: Sequence[Component], equations: Sequence[Polynomial], ring: Ring
-) -> tuple[Component, ...]:
+) -> Known[tuple[Component, ...]]:
     """The components of V(equations), or all of it as one where that is pure and one of them is not.
 
     >>> x, y = Ring(("x", "y")).gens
     >>> doubtful = Component(Ideal(x.ring, (x * y, x**2 * y, x * y**2)), False, 1)
-    >>> pure_or_whole([doubtful], [x * y], x.ring)
+    >>> pure_or_whole([doubtful], [x * y], x.ring).value
     (Component(x*y = 0, dimension 1, not proven prime),)
     """
     given = tuple(dict.fromkeys(f for f in equations if f))
     dimension = len(ring.names) - len(given)
     if all(map(_is_pure, components)) or max(c.dimension for c in components) != dimension:
-        return tuple(components)
+        return Known(tuple(components))
     whole = Ideal(ring, given)
-    return (Component(whole, False, dimension),) if whole.dimension == dimension else tuple(components)
+    known = whole.dimension
+    pure = (Component(whole, False, dimension),)
+    return Known(pure if known.value == dimension else tuple(components), known.certainty)
 
 
 def _is_pure(component: Component) -> bool:

@@ -47,12 +47,12 @@ PROBLEMS = {
 def test_every_engine_gives_the_same_basis(engine: str, problem: str) -> None:
     generators, dimension, degree = PROBLEMS[problem]
     with engines.use("flint"):
-        expected = Ideal(R, generators).groebner_basis()
+        expected = Ideal(R, generators).groebner_basis().value
     with engines.use(engine):
         ideal = Ideal(R, generators)
-        assert ideal.groebner_basis() == expected
-        assert (ideal.dimension, ideal.degree) == (dimension, degree)
-        assert ideal.is_unit() == (dimension < 0)
+        assert ideal.groebner_basis().value == expected
+        assert (ideal.dimension.value, ideal.degree.value) == (dimension, degree)
+        assert ideal.is_unit().value == (dimension < 0)
 
 
 @every_engine
@@ -62,24 +62,24 @@ def test_algebraic_constants_of_a_tower(engine: str) -> None:
     a, b, t = ring.gens
     with engines.use(engine):
         ideal = Ideal(ring, (a**2 - 2, b**2 - 3, t - a - b))
-        assert ideal.vector_space_dimension == 4
-        assert ideal.eliminate(("r2", "r3")).generators == (t**4 - 10 * t**2 + 1,)
-        assert not ideal.radical_contains(a * b - t)
+        assert ideal.vector_space_dimension.value == 4
+        assert ideal.eliminate(("r2", "r3")).value.generators == (t**4 - 10 * t**2 + 1,)
+        assert not ideal.radical_contains(a * b - t).value
 
 
 @every_engine
 def test_known_numbers_of_solutions(engine: str, katsura, cyclic) -> None:
     with engines.use(engine):
-        assert Ideal(*katsura(3)).vector_space_dimension == 8
+        assert Ideal(*katsura(3)).vector_space_dimension.value == 8
         if engine != "sympy":
-            assert Ideal(*cyclic(5)).vector_space_dimension == 70
+            assert Ideal(*cyclic(5)).vector_space_dimension.value == 70
 
 
 def test_large_bases_go_to_another_engine(katsura, cyclic) -> None:
     ideal = Ideal(*katsura(6))
-    assert ideal.vector_space_dimension == 64
+    assert ideal.vector_space_dimension.value == 64
     if "msolve" in PRESENT:
-        assert Ideal(*cyclic(6)).vector_space_dimension == 156
+        assert Ideal(*cyclic(6)).vector_space_dimension.value == 156
 
 
 def test_ten_spellings_have_one_answer() -> None:
@@ -101,7 +101,7 @@ def test_ten_spellings_have_one_answer() -> None:
     polynomials = [R.from_sympy(s) for s in spellings]
     for engine in PRESENT:
         with engines.use(engine):
-            answers = {Ideal(R, (p, x**2 - 3 * y, z)).groebner_basis() for p in polynomials}
+            answers = {Ideal(R, (p, x**2 - 3 * y, z)).groebner_basis().value for p in polynomials}
         assert len(answers) == 1
 
 
@@ -116,7 +116,7 @@ def test_numbers_longer_than_python_converts() -> None:
     long = x * fmpz(10) ** 5000 - 1
     assert read(write(long, (0,)), R, (0,)) == long
     with engines.use("flint", "singular"):
-        assert Ideal(R, (long, y**2 - x * y - 1, z**2 - y * z)).dimension == 0
+        assert Ideal(R, (long, y**2 - x * y - 1, z**2 - y * z)).dimension.value == 0
 
 
 @pytest.mark.engines
@@ -145,7 +145,7 @@ def test_monomial_orders(order: str) -> None:
     for engine in PRESENT:
         with engines.use(engine):
             if engine != "msolve" or order == "degrevlex":
-                bases.append(Ideal(ring, (a**2 + b**2 - 5, a * b - 2)).groebner_basis())
+                bases.append(Ideal(ring, (a**2 + b**2 - 5, a * b - 2)).groebner_basis().value)
     assert len(set(bases)) == 1
     if order == "lex":
         assert bases[0][0] == b**4 - 5 * b**2 + 4
@@ -163,14 +163,14 @@ def test_eliminations_and_saturations_agree(engine: str) -> None:
 def _operations(ideal: Ideal) -> list[tuple[Polynomial, ...]]:
     other = Ideal(R, (x - y, z**2 - 1))
     found = [
-        ideal.eliminate({"z"}),
-        ideal.saturate(x),
-        ideal.saturate(other),
-        ideal.intersect(other),
-        ideal.quotient(x * y),
+        ideal.eliminate({"z"}).value,
+        ideal.saturate(x).value,
+        ideal.saturate(other).value,
+        ideal.intersect(other).value,
+        ideal.quotient(x * y).value,
         ideal * other,
     ]
-    return [i.groebner_basis() for i in found]
+    return [i.groebner_basis().value for i in found]
 
 
 @pytest.mark.engines
@@ -178,14 +178,14 @@ def _operations(ideal: Ideal) -> list[tuple[Polynomial, ...]]:
 def test_singular_decomposes_what_factoring_does() -> None:
     ideal = Ideal(R, (x * y * (x - 1), z * (x**2 - 2)))
     with engines.use("flint", "singular"):
-        primes = {p.groebner_basis() for p in ideal.minimal_primes()}
+        primes = {p.groebner_basis().value for p in ideal.minimal_primes().value}
         pieces = engines.ask(engines.Task("facstd", R, ideal.generators)).ideals
         eliminated = engines.ask(engines.Task("eliminate", R, (x - z**2, y - z**3), (z,))).ideals[0]
         saturated = engines.ask(engines.Task("saturate", R, ideal.generators, (z,))).ideals[0]
     assert primes == {(z, x), (z, y), (z, x - 1), (y, x**2 - 2)}
     assert len(pieces) >= 4
     assert eliminated == (x**3 - y**2,)
-    assert Ideal(R, saturated).equals(Ideal(R, (x**2 - 2, y)))
+    assert Ideal(R, saturated).equals(Ideal(R, (x**2 - 2, y))).value
 
 
 small = st.integers(-3, 3)
@@ -202,5 +202,6 @@ def test_random_systems_agree(generators: list[Polynomial]) -> None:
     for engine in PRESENT:
         with engines.use(engine):
             ideal = Ideal(R, generators)
-            answers.append((ideal.groebner_basis(), ideal.dimension, ideal.radical_contains(x)))
+            known = ideal.groebner_basis(), ideal.dimension, ideal.radical_contains(x)
+            answers.append(tuple(answer.value for answer in known))
     assert len(set(answers)) == 1

@@ -71,7 +71,7 @@ def test_the_loops_of_the_paper() -> None:
     assert space.variables == ("Bx", "By", "Cx", "Cy", "Fx", "Fy", "Gx", "Gy")
     assert [e.total_degree for e in space.equations] == [2] * 6
     ideal = Ideal(space.ring, space.equations)
-    assert (ideal.dimension, ideal.degree) == (2, 40)
+    assert (ideal.dimension.value, ideal.degree.value) == (2, 40)
 
 
 def three_rpr() -> Mechanism:

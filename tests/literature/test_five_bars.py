@@ -29,10 +29,10 @@ def test_type_2_locus_of_the_end_point_is_a_sextic(lengths: tuple[int, ...], fol
     assert in_line.words == "B, C, D collinear"
     ring = equation.space.ring
     closed = Ideal(ring, (*equation.space.equations, in_line.polynomial))
-    (curve,) = closed.eliminate(("Bx", "By", "Dx", "Dy")).generators
+    (curve,) = closed.eliminate(("Bx", "By", "Dx", "Dy")).value.generators
     assert sorted((p.total_degree, k) for p, k in curve.factors()) == sorted([(6, 1), (folded_degree, 1)])
     reach = sum((ring.gen(f"B{i}") - ring.gen(f"D{i}")) ** 2 for i in "xy") - (lengths[1] + lengths[2]) ** 2
-    (stretched,) = (closed + reach).eliminate(("Bx", "By", "Dx", "Dy")).radical().generators
+    (stretched,) = (closed + reach).eliminate(("Bx", "By", "Dx", "Dy")).value.radical().value.generators
     assert stretched.total_degree == 6
     assert [k for _, k in stretched.factors()] == [1]
     assert set(stretched.variables) == {"Cx", "Cy"}

@@ -69,7 +69,7 @@ def test_bennett_has_no_singularity(classified: Classified) -> None:
 def test_sarrus_configuration_space() -> None:
     """Row 18: both legs rise together, in two ways; folded onto themselves they turn freely."""
     space = velocity_equation(load("sarrus")).space
-    parts = decompose(space.equations, ring=space.ring)
+    parts = decompose(space.equations, ring=space.ring).value
     assert sorted(part.dimension for part in parts) == [1, 1, 2]
 
 

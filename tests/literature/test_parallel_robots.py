@@ -69,7 +69,7 @@ def test_3rpr_has_six_assemblies() -> None:
     assert len(legs) == 3
     ideal = Ideal(equation.space.ring, (*equation.space.equations, *legs))
     # the ring's square root counts twice
-    assert ideal.vector_space_dimension == 2 * 6
+    assert ideal.vector_space_dimension.value == 2 * 6
 
 
 @pytest.mark.slow
@@ -97,7 +97,7 @@ def test_six_cusps_of_the_3rpr() -> None:
         for u, v in ((a, b), (a, c), (b, c))
     ]
     slice_ = squares[0] - Fraction(1498, 100) ** 2
-    assert len(real_points([*equation.space.equations, slice_, locus, *along])) == 6
+    assert len(real_points([*equation.space.equations, slice_, locus, *along]).value) == 6
 
 
 def test_3rpr_has_type_2_only(classified: Callable[[Mechanism], Classification]) -> None:
@@ -171,7 +171,10 @@ def test_constraint_singularity_of_the_3upu() -> None:
         constraint = [f.polynomial for f in found[label].factors if len(f.polynomial) == 3]
         assert len(constraint) == 1
         product = constraint[0] * prod(lengths, start=ring.one)
-        assert loops.contains(4 * product - 3 * expected) or loops.contains(4 * product + 3 * expected)
+        assert (
+            loops.contains(4 * product - 3 * expected).value
+            or loops.contains(4 * product + 3 * expected).value
+        )
 
 
 @pytest.mark.slow
@@ -208,9 +211,9 @@ def test_two_modes_of_the_3rps() -> None:
     tangents = {1: (ring.zero, ring.one), 2: (-root, -ring.one), 3: (root, -ring.one)}
     constraints = [x * e[0] + y * e[1] for (x, y), e in zip(tangents.values(), sides.values(), strict=True)]
     ideal = Ideal(ring, (*constraints, *planes))
-    assert ideal.contains(ring.gen("q0") * ring.gen("q3"))
-    assert not ideal.contains(ring.gen("q0"))
-    assert not ideal.contains(ring.gen("q3"))
+    assert ideal.contains(ring.gen("q0") * ring.gen("q3")).value
+    assert not ideal.contains(ring.gen("q0")).value
+    assert not ideal.contains(ring.gen("q3")).value
 
 
 @pytest.mark.parametrize("zero", [("q3",), ("q0",), ("q0", "q3")])

@@ -14,7 +14,7 @@ def products(first: tuple[Polynomial, ...], second: tuple[Polynomial, ...]) -> I
 
 def unsplit(ideal: Ideal) -> Splitting:
     """What is found where no draw of coordinates splits the variety, which would be right as well."""
-    return next(found for found in (analyse(ideal, seed=s) for s in range(20)) if not found.factors)
+    return next(found for found in (analyse(ideal, seed=s).value for s in range(20)) if not found.factors)
 
 
 def test_a_line_beside_a_surface() -> None:
@@ -37,5 +37,5 @@ def test_an_embedded_point_of_a_surface() -> None:
 
 def test_planes_that_meet_in_a_point() -> None:
     """They are of one dimension, but not Cohen-Macaulay: not connected in codimension 1 (Hartshorne 1962)."""
-    found = analyse(products((x, y), (u, v)))
+    found = analyse(products((x, y), (u, v))).value
     assert not found.macaulay

@@ -38,7 +38,7 @@ class CurveTask:
 class Counted:
     """The numbers of connected components of a curve and its images, or None with the reason.
 
-    open: whether a larger budget could say more.
+    open: whether a larger budget could say more.  Bases modulo primes will do for a number.
     """
 
     components: tuple[int, ...] | None
@@ -74,7 +74,7 @@ def count(task: CurveTask) -> Counted:
 
 
 def _share_a_curve(one: Equations, other: Equations) -> bool:
-    return Ideal(one[0].ring, (*one, *other)).dimension > 0
+    return Ideal(one[0].ring, (*one, *other)).dimension.value > 0
 
 
 def _components(equations: Equations, exclusions: tuple[Equations, ...]) -> int:
@@ -84,12 +84,12 @@ def _components(equations: Equations, exclusions: tuple[Equations, ...]) -> int:
     if curve.verdict.is_undecided:
         raise Undecided(curve.verdict.reason)
     alone = sum(not _lies_in(p, exclusions) for p in curve.isolated_points)
-    whole = [group for group in exclusions if (ideal + Ideal(ideal.ring, group)).dimension > 0]
+    whole = [group for group in exclusions if (ideal + Ideal(ideal.ring, group)).dimension.value > 0]
     if not whole:
         return len(curve.components) + alone
     rest = ideal
     for group in whole:
-        rest = rest.saturate(Ideal(ideal.ring, group))
+        rest = rest.saturate(Ideal(ideal.ring, group)).value
     return components_outside(curve, whole, rest.generators) + alone
 
 

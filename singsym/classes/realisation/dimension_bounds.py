@@ -11,14 +11,14 @@ Source: Bochnak, Coste, Roy, Real Algebraic Geometry (1998), 2.8 and 3.3.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 
 from singsym.classes.strata.patches import patches, unsplit
 from singsym.effort import patience
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import current
-from singsym.effort.verdict import Certainty, unnoted, weakest
+from singsym.effort.verdict import Known, Verdict
 from singsym.elimination.elimination_orders import without_zeros_of
 from singsym.elimination.ideal import Ideal
 from singsym.kinematics.numerical_rank import numerical_rank
@@ -53,15 +53,7 @@ def off_borders(system: RealSystem) -> RealSystem:
     return replace(system, positive=(*system.positive, *strict), nonnegative=())
 
 
-@dataclass(frozen=True)
-class Bound:
-    """A bound of a dimension from above, and how it is known."""
-
-    dimension: int
-    certainty: Certainty = "proven"
-
-
-def bound_above(system: RealSystem, dimension: int, beside: int = 0) -> Bound | None:
+def bound_above(system: RealSystem, dimension: int, beside: int = 0) -> Known[int] | None:
     """A bound of the real dimension where `dimension` is one, as far as is seen in time; else None.
 
     beside: how many of the ring's variables are in no equation and do not count.
@@ -72,20 +64,21 @@ def bound_above(system: RealSystem, dimension: int, beside: int = 0) -> Bound | 
     >>> x, y, z = R.gens
     >>> axes = RealSystem(R, (x * y, x * z))
     >>> bound_above(axes, 1), bound_above(axes, 2)
-    (None, Bound(dimension=2, certainty='proven'))
+    (None, Known(value=2, certainty='proven'))
     """
-    ring, equations, seems = system.ring, system.closed_equations, None
-    with attempt("a bound of a dimension", patience.BOUND_BY_HYPERPLANES.work), unnoted():
+    ring, equations = system.ring, system.closed_equations
+    seems: Verdict | None = None
+    with attempt("a bound of a dimension", patience.BOUND_BY_HYPERPLANES.work):
         seems = seems_at_most(ring, equations, dimension + beside)
-        if not seems and system.exclusions:
+        if not seems.is_yes and system.exclusions:
             seems = seems_at_most(*_off_exclusions(system), dimension + beside)
-    if seems is False:
+    if seems is not None and not seems.is_yes:
         return None
-    with attempt("a proof of a bound", patience.BOUND_PROOF.work), unnoted() as seen:
-        found = Ideal(ring, equations).dimension - beside
-        if found <= dimension and (weakest(*seen) == "proven" or seems is None):
-            return Bound(dimension, weakest(*seen))
-    return Bound(dimension, "modular") if seems else None
+    with attempt("a proof of a bound", patience.BOUND_PROOF.work):
+        found = Ideal(ring, equations).dimension
+        if found.value - beside <= dimension and (found.is_proven or seems is None):
+            return Known(dimension, found.certainty)
+    return None if seems is None else Known(dimension, seems.certainty)
 
 
 def is_bounded(system: RealSystem, dimension: int, beside: int = 0) -> bool:
@@ -96,18 +89,19 @@ def is_bounded(system: RealSystem, dimension: int, beside: int = 0) -> bool:
     return False
 
 
-def points_off_exclusions(system: RealSystem) -> list[RealPoint]:
+def points_off_exclusions(system: RealSystem) -> Known[tuple[RealPoint, ...]]:
     """All real zeros of the equations off the exclusions, where there are finitely many complex ones.
 
     Raises `NotZeroDimensional` where there are not.
 
     >>> R = Ring(("x", "y"))
     >>> x, y = R.gens
-    >>> points_off_exclusions(RealSystem(R, (x * y, y**2 - y), exclusions=((y,),)))
-    [RealPoint(x=0, y=1)]
+    >>> points_off_exclusions(RealSystem(R, (x * y, y**2 - y), exclusions=((y,),))).value
+    (RealPoint(x=0, y=1),)
     """
     ring, equations = _off_exclusions(system)
-    return [dropped(point, system.ring) for point in real_points(Ideal(ring, equations))]
+    points = real_points(Ideal(ring, equations))
+    return points.map(lambda found: tuple(dropped(point, system.ring) for point in found))
 
 
 def _off_exclusions(system: RealSystem) -> tuple[Ring, tuple[Polynomial, ...]]:

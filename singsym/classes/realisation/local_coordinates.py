@@ -23,6 +23,7 @@ from flint import fmpq
 
 from singsym.classes.taxonomy.types import SingularityType
 from singsym.effort import chance
+from singsym.effort.verdict import Verdict
 from singsym.kinematics.loops import path, point_path
 from singsym.kinematics.placement import JointValue
 from singsym.kinematics.velocity import VelocityEquation
@@ -110,10 +111,11 @@ def _is_one_point(mechanism: Mechanism, name: str) -> bool:
     return sum(joint.at == (name, name) for joint in mechanism.joints) >= owners - 1
 
 
-def are_missed(equations: Sequence[Polynomial], coordinates: Sequence[JointValue]) -> bool:
-    """Whether the equations have no zero where the coordinates have random values, modulo random primes.
+def are_missed(equations: Sequence[Polynomial], coordinates: Sequence[JointValue]) -> Verdict:
+    """Whether the equations have no zero where the coordinates have random values.
 
-    Then, but for an unlucky draw, no real part of their zeros has these as local coordinates.
+    A yes is "modular"; else it is undecided.  Then, but for an unlucky draw, no real part of their zeros has
+    these as local coordinates.
     Raises `Undecided`, and `engines.EngineUnavailable` without an engine for it.
     """
     random = chance.random("values of joints", *equations)

@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import chain
 
 from singsym.classes.realisation.certified_configuration import Names, configuration
 from singsym.classes.realisation.dimension_bounds import (
-    Bound,
     bound_above,
     is_bounded,
     larger_parts,
@@ -29,14 +29,19 @@ from singsym.classes.strata.reflections import IDENTITY, image
 from singsym.effort import patience
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Budget, Undecided
-from singsym.effort.verdict import Certainty, Verdict, certainties, weakest
+from singsym.effort.verdict import Known, Premises, Verdict, weakest
 from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.kinematics.placement import JointValue
 from singsym.polynomials import Equations
 from singsym.varieties.real.dimension.extent import EMPTY, Extent
 from singsym.varieties.real.dimension.hyperplane_cuts import Cut, dimension_by_cuts
 from singsym.varieties.real.dimension.independent_coordinates import are_dependent
-from singsym.varieties.real.dimension.real_dimension import component_dimension, independent, real_dimension
+from singsym.varieties.real.dimension.real_dimension import (
+    Dimension,
+    component_dimension,
+    independent,
+    real_dimension,
+)
 from singsym.varieties.real.modules.module_points import comes_apart, module_points
 from singsym.varieties.real.numerical.sampling import numerical_codimension
 from singsym.varieties.real.points.boxed_point import BoxPoint
@@ -101,7 +106,7 @@ def realise(task: RealTask) -> Realised:
     system = replace(task.feasible, equations=stratum.equations, exclusions=exclusions)
     points: CertifiedPoints = ()
     try:
-        with Budget(work=task.seconds, memory_mb=task.memory_mb), certainties() as seen:
+        with Budget(work=task.seconds, memory_mb=task.memory_mb):
             if task.known is None:
                 piece, points = _realised(piece, system, task)
             else:
@@ -109,9 +114,6 @@ def realise(task: RealTask) -> Realised:
                     with attempt("a point of a stratum", share=1 / 2):
                         piece, points = _realised(piece, system, task)
                 piece, points = _above(piece, points, system, task)
-        if piece.verdict.is_no:
-            verdict = replace(piece.verdict, certainty=weakest(piece.verdict.certainty, *seen))
-            piece = replace(piece, verdict=verdict)
     except Undecided as reason:
         verdict = piece.verdict if points else Verdict.undecided(str(reason))
         piece = replace(piece, verdict=verdict, extent=replace(piece.extent, open=str(reason)))
@@ -134,7 +136,7 @@ def _above(
     reason = f"that there is no part of a dimension above {known} was not proven in time"
     if bound is not None:
         reason = f"only a dimension above {known} would matter"
-        extent = replace(piece.extent, at_most=bound.dimension, bounded=bound.certainty)
+        extent = replace(piece.extent, at_most=bound.value, bounded=bound.certainty)
         piece = replace(piece, extent=extent)
     verdict = piece.verdict if points else Verdict.undecided(reason)
     return replace(piece, verdict=verdict, extent=replace(piece.extent, open=reason)), points
@@ -153,12 +155,9 @@ def _realised(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, 
     if component is None:
         return _given(piece, system, task)
     if component.dimension == 0:
-        with certainties() as seen:
-            solutions = real_points(stratum.equations)
-        return _finite(piece, _admitted(solutions, system, stratum.elsewhere), weakest(*seen))
-    with certainties() as seen:
-        found = component_dimension(component, system)
-    return _counted(*_exactly(piece, *found, weakest(*seen)), system, stratum.elsewhere)
+        solutions = real_points(stratum.equations)
+        return _finite(piece, solutions.map(lambda found: _admitted(found, system, stratum.elsewhere)))
+    return _counted(*_exactly(piece, component_dimension(component, system)), system, stratum.elsewhere)
 
 
 def _images(piece: Piece, points: CertifiedPoints, task: RealTask) -> Iterator[Piece]:
@@ -189,14 +188,15 @@ def _given(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, Cer
     elsewhere = task.found.stratum.elsewhere
     dimension = len(system.ring.names) - len(system.closed_equations)
     if dimension <= 0:
-        with certainties() as seen:
-            points = _finitely_many(system, task)
+        points = _finitely_many(system, task)
         if points is not None:
-            return _finite(piece, points, weakest(*seen))
+            return _finite(piece, points)
     codimension = numerical_codimension(system)
     patch = unsplit(system.closed_equations, system.ring)
-    if codimension is None and is_proven_empty(restricted(system, patch)):
-        return _exactly(piece, -1, None)
+    if codimension is None:
+        empty = is_proven_empty(restricted(system, patch))
+        if empty.is_yes:
+            return _exactly(piece, Known((-1, None), empty.certainty))
     if codimension is None or codimension[0] == len(system.closed_equations):
         near = [codimension[1]] if codimension else []
         witness = find_witness(off_borders(system), tries=SEARCHES, near=near)
@@ -205,21 +205,23 @@ def _given(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, Cer
     return _counted(*_singular(piece, system, patch), system, elsewhere)
 
 
-def _finitely_many(system: RealSystem, task: RealTask) -> CertifiedPoints | None:
+def _finitely_many(system: RealSystem, task: RealTask) -> Known[CertifiedPoints] | None:
     """All points of a set: by modules, exactly, or off the exclusions where there are too many on them.
 
     None where they are not found, or cannot be told from those of an image.
     """
     equations, images = system.closed_equations, task.found.images
-    ways: list[tuple[Callable[[], CertifiedPoints], float]] = [(lambda: real_points(equations), 1 / 3)]
+    ways: list[tuple[Callable[[], Known[CertifiedPoints]], float]] = [
+        (partial(real_points, equations), 1 / 3)
+    ]
     if comes_apart(equations):
-        ways.insert(0, (lambda: module_points(equations), 1 / 2))
+        ways.insert(0, (partial(module_points, equations), 1 / 2))
     if system.exclusions:
-        ways.append((lambda: tuple(points_off_exclusions(system)), 1 / 3))
+        ways.append((partial(points_off_exclusions, system), 1 / 3))
     for zeros, share in ways:
         with suppress(NotZeroDimensional), attempt("finitely many points", share=share):
-            points = _admitted(zeros(), system, task.found.stratum.elsewhere)
-            boxed = [p for p in points if isinstance(p, BoxPoint)]
+            points = zeros().map(lambda found: _admitted(found, system, task.found.stratum.elsewhere))
+            boxed = [p for p in points.value if isinstance(p, BoxPoint)]
             mirrored = [p.reflect(r) for r in images if r != IDENTITY for p in boxed]
             [p.coincides(q) for p in mirrored for q in boxed]
             return points
@@ -245,7 +247,7 @@ def _bounded(
             if larger == most:
                 return found, points
             if (bound := _bound(system, larger, task)) is not None:
-                extent = Extent(larger, bound.dimension, bound.certainty)
+                extent = Extent(larger, bound.value, bound.certainty)
                 return replace(found, extent=extent), points
         return _by_components(piece, system)
     except Undecided as reason:
@@ -271,12 +273,13 @@ def _dependent(piece: Piece, system: RealSystem, patch: Patch) -> tuple[Piece, C
     """A set given by dependent equations: its dimension by cuts, else by its components."""
     chart, beside = _charted(system, patch)
     cut = _cut(chart.system)
-    if cut is not None and cut.dimension < 0:
+    if cut is not None and cut.value.dimension < 0:
         verdict = Verdict.no(cut.certainty, reason="there is no complex solution")
         return replace(piece, verdict=verdict, extent=EMPTY), ()
-    if cut is not None and cut.point is not None and chart.faithful and _is_inside(cut.point, chart.system):
-        dimension = cut.dimension - beside
-        near = _unsolved(chart, patch, cut.point)
+    point = None if cut is None else cut.value.point
+    if cut is not None and point is not None and chart.faithful and _is_inside(point, chart.system):
+        dimension = cut.value.dimension - beside
+        near = _unsolved(chart, patch, point)
         witness = find_witness(system, tries=SEARCHES, dimension=dimension, near=[near])
         if witness is not None:
             return _known(piece, Extent(dimension, dimension, cut.certainty), witness)
@@ -289,9 +292,7 @@ def _is_inside(witness: Witness, system: RealSystem) -> bool:
 
 
 def _by_components(piece: Piece, system: RealSystem) -> tuple[Piece, CertifiedPoints]:
-    with certainties() as seen:
-        found = real_dimension(system)
-    return _exactly(piece, *found, weakest(*seen))
+    return _exactly(piece, real_dimension(system))
 
 
 def _unsolved(chart: Cartesian, patch: Patch, witness: Witness) -> tuple[float, ...]:
@@ -308,22 +309,24 @@ def _charted(system: RealSystem, patch: Patch) -> tuple[Cartesian, int]:
     return chart, len(patch.solved) + chart.left_out
 
 
-def _bound(system: RealSystem, dimension: int, task: RealTask) -> Bound | None:
+def _bound(system: RealSystem, dimension: int, task: RealTask) -> Known[int] | None:
     """A bound of the dimension of a set, where it is one."""
     chart, beside = _charted(system, unsplit(system.closed_equations, system.ring))
     if is_bounded(chart.system, dimension, beside):
-        return Bound(dimension)
+        return Known(dimension)
     if task.most == dimension + 1 and task.coordinates:
         with attempt("a bound of a dimension", patience.BOUND_BY_JOINTS.work):
-            if are_missed(system.closed_equations, task.coordinates):
-                return Bound(dimension, "modular")
+            missed = are_missed(system.closed_equations, task.coordinates)
+            if missed.is_yes:
+                return Known(dimension, missed.certainty)
     with attempt("a bound of a dimension", patience.BOUND_BY_VALUES.work):
-        if are_dependent(system, dimension, task.circles):
-            return Bound(dimension, "modular")
+        dependent = are_dependent(system, dimension, task.circles)
+        if dependent.is_yes:
+            return Known(dimension, dependent.certainty)
     return bound_above(chart.system, dimension, beside)
 
 
-def _cut(system: RealSystem) -> Cut | None:
+def _cut(system: RealSystem) -> Known[Cut] | None:
     """The dimension by cuts where it is found in time."""
     with attempt("the dimension of a set", patience.DIMENSION.work):
         return dimension_by_cuts(system)
@@ -341,8 +344,9 @@ def _lies_in(point: RealPoint | BoxPoint, loci: tuple[Equations, ...]) -> bool:
     return any(all(point.sign(p) == 0 for p in locus) for locus in loci)
 
 
-def _finite(piece: Piece, points: CertifiedPoints, known: Certainty) -> tuple[Piece, CertifiedPoints]:
-    """A set of these points; known: how it is that they are all that there are, or may be in it."""
+def _finite(piece: Piece, solutions: Known[CertifiedPoints]) -> tuple[Piece, CertifiedPoints]:
+    """A set of these points."""
+    points, known = solutions.value, solutions.certainty
     if not points:
         verdict = Verdict.no(
             known, reason="none of finitely many complex solutions is real, feasible and new"
@@ -360,10 +364,9 @@ def _finite(piece: Piece, points: CertifiedPoints, known: Certainty) -> tuple[Pi
     return found, points
 
 
-def _exactly(
-    piece: Piece, dimension: int, witness: Witness | None, known: Certainty = "proven"
-) -> tuple[Piece, CertifiedPoints]:
-    """A set whose real dimension is known, with a point of it where there is one; known: how it is."""
+def _exactly(piece: Piece, found: Known[Dimension]) -> tuple[Piece, CertifiedPoints]:
+    """A set whose real dimension is known, with a point of it where there is one."""
+    (dimension, witness), known = found.value, found.certainty
     if witness is None:
         verdict = Verdict.no(known, reason="the equations have no real and feasible solution")
         return replace(piece, verdict=verdict, extent=EMPTY), ()
@@ -386,21 +389,22 @@ def _counted(
     if piece.dimension != 0 or piece.points is not None:
         return piece, points
     try:
-        with certainties() as seen:
-            samples = list(_samples(system, system.away, system.nonnegative))
+        samples = _samples(system, system.away, system.nonnegative)
     except Undecided as reason:
         return replace(piece, extent=replace(piece.extent, open=f"points not counted: {reason}")), points
     distinct: list[RealPoint] = []
-    for point in samples:
+    for point in samples.value:
         if not any(point.coincides(other) for other in distinct):
             distinct.append(point)
-    return _finite(piece, _admitted(distinct, system, elsewhere), weakest(piece.extent.bounded, *seen))
+    known = weakest(piece.extent.bounded, samples.certainty)
+    return _finite(piece, Known(_admitted(distinct, system, elsewhere), known))
 
 
-def _samples(system: RealSystem, away: Equations, borders: Equations) -> Iterator[RealPoint]:
+def _samples(system: RealSystem, away: Equations, borders: Equations) -> Known[tuple[RealPoint, ...]]:
     """A point on each connected component of the zeros, and of those on one border, on two, and so on."""
-    found = sample_points(system.ring, system.closed_equations, nonzero=away)
-    yield from found
+    premises = Premises()
+    found = premises.take(sample_points(system.ring, system.closed_equations, nonzero=away))
     for k, border in enumerate(borders if found else ()):
         on_it = replace(system, equations=(*system.equations, border))
-        yield from _samples(on_it, away, borders[k + 1 :])
+        found = (*found, *premises.take(_samples(on_it, away, borders[k + 1 :])))
+    return premises.conclude(found)

@@ -16,7 +16,7 @@ from itertools import combinations, product
 from math import comb, prod
 
 from singsym.classes.strata.ground import Ground, NotEvident
-from singsym.effort.verdict import unnoted, weakest
+from singsym.effort.verdict import Known, Premises
 from singsym.kinematics.nonzero import Certifier
 from singsym.minors.blocks import easy_columns
 from singsym.minors.determinant import determinant
@@ -90,7 +90,7 @@ def block_rank(
     certifier: Certifier,
     start: Places = ((), ()),
     largest: bool = False,
-) -> BlockRank:
+) -> Known[BlockRank]:
     """The rank of a matrix on the ground minus the common zeros of the minors returned.
 
     Grows a nonvanishing minor border by border until all bordering minors vanish (lemma above); of several
@@ -104,16 +104,17 @@ def block_rank(
     >>> line = Ground(Patch(R, {"y": R.zero}, ()), ((1.0, 0.0),))
     >>> from singsym.varieties.real.system import RealSystem
     >>> matrix = PolynomialMatrix.of(R, [[x, y], [x, y]])
-    >>> block_rank(matrix, line, line.certifier(RealSystem(R, ()), ()))
+    >>> block_rank(matrix, line, line.certifier(RealSystem(R, ()), ())).value
     BlockRank(rank=1, minors=(x,), exact=True, highest=True)
     """
     rows, columns = start
+    premises = Premises()
     last = expanded(block.select(rows, columns)) if rows else None
     while not largest:
         candidates = []
         for r, c in _bordered(block.shape, rows, columns):
             minor = expanded(block.select(r, c))
-            if minor and not ground.vanishes(minor, certifier):
+            if minor and not premises.take(ground.vanishes(minor, certifier)):
                 candidates.append((_weight(minor), r, c, minor))
                 if minor.is_constant:
                     break
@@ -121,20 +122,23 @@ def block_rank(
             break
         _, rows, columns, last = min(candidates, key=lambda t: t[:3])
     if last is None:
-        return BlockRank(0, ())
+        return premises.conclude(BlockRank(0, ()))
     if last.is_constant:
-        return BlockRank(len(rows), ())
-    highest = largest or len(rows) == min(block.shape) or ground.has_no_zeros_inside(last)
-    return _with_locus(block, ground, certifier, (rows, columns), highest)
+        return premises.conclude(BlockRank(len(rows), ()))
+    highest = largest or len(rows) == min(block.shape) or premises.take(ground.has_no_zeros_inside(last))
+    found = _with_locus(block, ground, certifier, (rows, columns), highest)
+    return premises.pass_on(found)
 
 
-def _is_rank(block: PolynomialMatrix, ground: Ground, certifier: Certifier, places: Places) -> bool:
-    """Whether all minors that border one are proven to vanish on the ground."""
+def _is_rank(block: PolynomialMatrix, ground: Ground, certifier: Certifier, places: Places) -> Known[bool]:
+    """Whether all minors that border one are seen to vanish on the ground."""
+    premises = Premises()
     try:
         borders = (expanded(block.select(*border)) for border in _bordered(block.shape, *places))
-        return all(not minor or ground.vanishes(minor, certifier) for minor in borders)
+        known = (premises.take(ground.vanishes(minor, certifier)) for minor in borders if minor)
+        return premises.conclude(all(known))
     except NotEvident:
-        return False
+        return Known(False)
 
 
 def _weight(minor: Polynomial) -> tuple[int, int]:
@@ -143,7 +147,7 @@ def _weight(minor: Polynomial) -> tuple[int, int]:
 
 def _with_locus(
     block: PolynomialMatrix, ground: Ground, certifier: Certifier, largest: Places, highest: bool
-) -> BlockRank:
+) -> Known[BlockRank]:
     """r-minors whose common zeros on the ground contain the locus of lower rank: all where they are few.
 
     largest: one of them, whose bordering minors vanish; highest: whether no rank on the ground is larger.
@@ -160,27 +164,30 @@ def _with_locus(
     else:
         choices = (largest, *_swapped(block.shape, rows, columns))
     minors: dict[Polynomial, None] = {}
+    premises = Premises()
     for i, j in choices:
         minor = expanded(block.select(i, j))
         if not minor:
             continue
-        if not (highest or (i, j) == largest or _is_rank(block, ground, certifier, (i, j))):
+        usable = highest or (i, j) == largest
+        if not (usable or premises.take(_is_rank(block, ground, certifier, (i, j)))):
             # the rank may be higher where only this minor does not vanish
             exact = False
             continue
         try:
-            with unnoted() as seen:
-                if ground.vanishes(minor, certifier):
-                    exact = exact and weakest(*seen) == "proven"
-                    continue
+            vanishes = ground.vanishes(minor, certifier)
         except NotEvident:
             # with fewer minors the zeros are a larger set
             exact = False
             continue
+        if vanishes.value:
+            exact = exact and vanishes.is_proven
+            continue
         if minor.is_constant:
-            return BlockRank(r, ())
+            return premises.conclude(BlockRank(r, ()))
         minors[minor.squarefree_part()] = None
-    return BlockRank(r, tuple(sorted(minors, key=lambda m: (_weight(m), str(m)))), exact, highest)
+    shortest = tuple(sorted(minors, key=lambda m: (_weight(m), str(m))))
+    return premises.conclude(BlockRank(r, shortest, exact, highest))
 
 
 def _swapped(shape: tuple[int, int], rows: tuple[int, ...], columns: tuple[int, ...]) -> Iterator[Places]:

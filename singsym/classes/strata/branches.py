@@ -23,7 +23,7 @@ from singsym.classes.strata.reflections import IDENTITY, Reflection, compose, im
 from singsym.classes.taxonomy.types import SingularityType
 from singsym.effort import patience
 from singsym.effort.budget import Budget, Undecided
-from singsym.effort.verdict import Certainty, certainties, weakest
+from singsym.effort.verdict import Certainty, Premises, Verdict
 from singsym.elimination import engines
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Equations, Polynomial
@@ -131,9 +131,15 @@ def explore(branch: Branch) -> Explored:
 
     Parts without a feasible real point are left out.
     """
-    with certainties() as seen:
-        found = _explored(branch)
-    return replace(found, certainty=weakest(*seen))
+    work = _Exploring(branch)
+    try:
+        with Budget(work=branch.seconds, memory_mb=branch.memory_mb):
+            if (known := _point_by_point(branch)) is not None:
+                return known
+            work.explore()
+    except Undecided as reason:
+        work.undecided.append(str(reason))
+    return Explored(tuple(work.found), tuple(work.following), tuple(work.undecided), work.premises.certainty)
 
 
 def explore_patiently(branch: Branch) -> Explored:
@@ -142,49 +148,47 @@ def explore_patiently(branch: Branch) -> Explored:
         return explore(branch)
 
 
-def _explored(branch: Branch) -> Explored:
-    work = _Exploring(branch)
-    try:
-        with Budget(work=branch.seconds, memory_mb=branch.memory_mb):
-            if (known := _point_by_point(branch)) is not None:
-                return known
-            whole = unsplit(branch.equations, branch.feasible.ring)
-            system = restricted(branch.admitted, whole)
-            if not points_on(system, whole, 1):
-                if _is_soon_empty(system):
-                    return Explored()
-                work.tried = True
-            parts = patches(branch.equations, branch.admitted.nonzero, branch.feasible.ring)
-            chosen = list(representatives([p.generators for p in parts], branch.kept))
-            for k, images in chosen:
-                work.patch(parts[k], images, alone=len(chosen) == 1)
-    except Undecided as reason:
-        work.undecided.append(str(reason))
-    return Explored(tuple(work.found), tuple(work.following), tuple(work.undecided))
-
-
 def _point_by_point(branch: Branch) -> Explored | None:
     """A branch of finitely many points with the same defects; `None` where it is not seen to be one."""
     system = replace(branch.admitted, equations=branch.equations)
     found = defects_of_points(branch.problem, system, dict(branch.least))
-    if found is None or len(found) > 1:
+    if found is None or len(found.value) > 1:
         return None
-    own = [defects for defects in found if defects.types not in branch.evident]
+    own = [defects for defects in found.value if defects.types not in branch.evident]
     strata = (Stratum(branch.equations, d, branch.away, elsewhere=branch.elsewhere) for d in own)
-    return Explored(tuple(part for s in strata for part in _apart(Found(branch.path, s, branch.images))))
+    parts = tuple(part for s in strata for part in _apart(Found(branch.path, s, branch.images)))
+    return Explored(parts, certainty=found.certainty)
 
 
 @dataclass
 class _Exploring:
-    """A branch at work."""
+    """A branch at work.
+
+    premises: what it rests on that there is nothing else.
+    """
 
     branch: Branch
     found: list[Found] = field(default_factory=list)
     following: list[Branch] = field(default_factory=list)
     undecided: list[str] = field(default_factory=list)
     earlier: list[Equations] = field(default_factory=list)
+    premises: Premises = field(default_factory=Premises)
     tried: bool = False
     """Whether all of it was not proven empty in a short time."""
+
+    def explore(self) -> None:
+        """Search all patches; none of what is soon seen to be empty."""
+        branch = self.branch
+        whole = unsplit(branch.equations, branch.feasible.ring)
+        system = restricted(branch.admitted, whole)
+        if not points_on(system, whole, 1):
+            if self.premises.grants(_is_soon_empty(system)):
+                return
+            self.tried = True
+        parts = patches(branch.equations, branch.admitted.nonzero, branch.feasible.ring)
+        chosen = list(representatives([p.generators for p in parts], branch.kept))
+        for k, images in chosen:
+            self.patch(parts[k], images, alone=len(chosen) == 1)
 
     def patch(self, patch: Patch, images: tuple[Reflection, ...], *, alone: bool) -> None:
         """Search a patch; from then on its points, and their images, are known to be elsewhere.
@@ -223,7 +227,7 @@ class _Exploring:
         self, patch: Patch, system: RealSystem, images: tuple[Reflection, ...], alone: bool
     ) -> None:
         """A patch of which no point is known: the cheap ways to show that there is none come first."""
-        forced = real_consequences(system, system.closed_equations)
+        forced = self.premises.take(real_consequences(system, system.closed_equations))
         if forced is None:
             return
         smaller = patches((*patch.generators, *forced), system.nonzero, system.ring, thorough=True)
@@ -233,20 +237,22 @@ class _Exploring:
             return
         deciding = _deciding_variable(system) if self.branch.splits < MOST_SPLITS else None
         if not alone:
-            if not is_proven_empty(system, patience.QUICK_EMPTINESS.work, modular=False):
+            quick = is_proven_empty(system, patience.QUICK_EMPTINESS.work, modular=False)
+            if not self.premises.grants(quick):
                 self._postpone(patch, images)
         elif deciding is not None:
-            if self.tried or not _is_soon_empty(system):
+            if self.tried or not self.premises.grants(_is_soon_empty(system)):
                 self.branch = replace(self.branch, splits=self.branch.splits + 1)
                 self._split(patch, deciding, images)
-        elif not is_proven_empty(system):
+        elif not self.premises.grants(is_proven_empty(system)):
             self._decomposed(patch, system, images)
 
     def _decomposed(self, patch: Patch, system: RealSystem, images: tuple[Reflection, ...]) -> None:
         """The ranks on the components of a patch that may have real points."""
         known: tuple[Equations, ...] = ()
-        for component in decompose(patch.generators, system.nonzero, ring=system.ring):
-            samples = samples_of(component, system)
+        components = decompose(patch.generators, system.nonzero, ring=system.ring)
+        for component in self.premises.take(components):
+            samples = self.premises.take(samples_of(component, system))
             if samples is not None:
                 self._ranked(Ground(patch, samples, component), images, known)
                 known = (*known, component.generators)
@@ -257,9 +263,10 @@ class _Exploring:
         """The strata of a ground; `known`: other grounds of the same patch, looked at before."""
         branch = self.branch
         part = self._part(images, tuple(image(locus, r) for locus in known for r in images))
-        found = ranked(
+        ranks = ranked(
             branch.problem, ground, branch.admitted, branch.first, dict(branch.least), branch.evident
         )
+        found = self.premises.take(ranks)
         if found.stratum is not None:
             loci = (*branch.away, *found.stratum.loci)
             stratum = replace(found.stratum, loci=loci, elsewhere=part.elsewhere)
@@ -304,7 +311,7 @@ def _image_of(found: Found, reflection: Reflection) -> Found:
     component = stratum.component
     if component is not None:
         ideal = component.ideal
-        turned = Ideal(ideal.ring, image(ideal.generators, reflection), ideal.given)
+        turned = Ideal(ideal.ring, image(ideal.generators, reflection))
         component = replace(component, ideal=turned)
     own = replace(
         stratum,
@@ -315,7 +322,7 @@ def _image_of(found: Found, reflection: Reflection) -> Found:
     return Found(image(found.path, reflection), own)
 
 
-def _is_soon_empty(system: RealSystem) -> bool:
+def _is_soon_empty(system: RealSystem) -> Verdict:
     """Whether a part that can be split further is proven empty; primes will do unless there is patience."""
     if engines.proof_patience() == 1:
         return is_proven_empty(system, patience.SHORT_EMPTINESS.work)

@@ -13,6 +13,7 @@ from singsym.classes.taxonomy.types import Defects
 from singsym.effort import patience
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Undecided
+from singsym.effort.verdict import Known
 from singsym.polynomials import PolynomialMatrix
 from singsym.varieties.real.modules.module_points import comes_apart, module_points
 from singsym.varieties.real.points.boxed_point import BoxPoint
@@ -25,7 +26,7 @@ _BITS = (64, 256, 1024)
 
 def defects_of_points(
     problem: RankProblem, system: RealSystem, least: Mapping[str, int]
-) -> frozenset[Defects] | None:
+) -> Known[frozenset[Defects]] | None:
     """The defects that occur in a set of finitely many points; `None` where this is not found out.
 
     least: how far at least each matrix is below full rank at all of the points.
@@ -36,15 +37,16 @@ def defects_of_points(
     >>> row = PolynomialMatrix.of(R, [[x, y]])
     >>> parts = {name: row.select(columns=c) for name, c in (("L_I", [0]), ("L_O", [1]), ("L_p", []))}
     >>> problem = RankProblem({"L": row, **parts}, 0, 1, 1)
-    >>> defects_of_points(problem, RealSystem(R, (x**2 - 1, y)), {"L_O": 1})
+    >>> defects_of_points(problem, RealSystem(R, (x**2 - 1, y)), {"L_O": 1}).value
     frozenset({Defects(delta=0, p=0, k_I=0, k_O=1)})
     """
     equations = system.closed_equations
     if len(equations) < len(system.ring.names) or not comes_apart(equations):
         return None
     with attempt("points of a part", patience.POINTS_BY_MODULES.work):
-        points = [p for p in module_points(equations) if system.admits(p)]
-        return frozenset(_defects(problem, p, least) for p in points)
+        points = module_points(equations)
+        admitted = [p for p in points.value if system.admits(p)]
+        return Known(frozenset(_defects(problem, p, least) for p in admitted), points.certainty)
     return None
 
 

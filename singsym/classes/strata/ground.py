@@ -13,7 +13,7 @@ from singsym.classes.strata.patches import Patch, is_combination
 from singsym.effort import patience
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Undecided
-from singsym.effort.verdict import unnoted, weakest
+from singsym.effort.verdict import Known, Premises
 from singsym.elimination.ideal import Ideal
 from singsym.kinematics.nonzero import Certifier
 from singsym.kinematics.placement import ConfigurationSpace
@@ -59,24 +59,28 @@ class Ground:
         """The equations of all of the ground."""
         return self.component.generators if self.component else self.patch.generators
 
-    def has_no_zeros_inside(self, polynomial: Polynomial) -> bool:
-        """Whether the zeros of a polynomial are proven to hold no open part of the ground.
+    def has_no_zeros_inside(self, polynomial: Polynomial) -> Known[bool]:
+        """Whether the zeros of a polynomial are seen to hold no open part of the ground.
 
         On an irreducible ground those are such that do not vanish on all of it; then what vanishes off their
         zeros vanishes on the whole ground.
         """
         if self.component is not None:
-            return self.component.prime and not self.component.ideal.contains(polynomial)
-        left = self.patch.restrict(polynomial)
-        return bool(left) and self._prime is not None and not self._prime.contains(left)
+            prime, left = self.component.ideal if self.component.prime else None, polynomial
+        else:
+            left = self.patch.restrict(polynomial)
+            prime = self._prime if left else None
+        if prime is None:
+            return Known(False)
+        return prime.contains(left).map(lambda inside: not inside)
 
     @cached_property
     def _prime(self) -> Ideal | None:
         """The ideal of the patch in the variables that are not solved for, where it is soon proven prime."""
-        with attempt("whether a part is irreducible", patience.IRREDUCIBLE.work), unnoted() as seen:
+        with attempt("whether a part is irreducible", patience.IRREDUCIBLE.work):
             components = decompose(self.patch.rest, ring=self.patch.ring)
-            if len(components) == 1 and components[0].prime and weakest(*seen) == "proven":
-                return components[0].ideal
+            if len(components.value) == 1 and components.value[0].prime and components.is_proven:
+                return components.value[0].ideal
         return None
 
     def certifier(self, feasible: RealSystem, loci: Iterable[tuple[Polynomial, ...]]) -> Certifier:
@@ -88,23 +92,28 @@ class Ground:
         exclusions = tuple(group for group in groups if any(group))
         return Certifier(ConfigurationSpace(feasible.ring, rest, exclusions, positive))
 
-    def vanishes(self, polynomial: Polynomial, certifier: Certifier) -> bool:
-        """Whether a polynomial is zero on the ground, where True is proven.
+    def vanishes(self, polynomial: Polynomial, certifier: Certifier) -> Known[bool]:
+        """Whether a polynomial is zero on the ground, where True is as certain as is said.
 
         On a component False may be a guess, which only makes a stratum empty and sends its closure down as a
         locus again.  Raises `NotEvident` on a patch where it seems to be, unproven.
         """
         restricted = self.patch.restrict(polynomial)
         if certifier.normal_form(restricted).is_zero or certifier.shorten(restricted).is_zero:
-            return True
+            return Known(True)
         if is_large(polynomial, self.samples):
-            return False
-        if self.component is not None and self.component.ideal.contains(polynomial):
-            return True
+            return Known(False)
+        premises = Premises()
+        if self.component is not None and premises.take(self.component.ideal.contains(polynomial)):
+            return premises.conclude(True)
         if is_combination(restricted, self.equations if self.component else self.patch.rest):
-            return True
+            return Known(True)
         if self.component is None:
-            if self._chart is not None and self._chart[0].vanishes(restricted, self._chart[1]):
-                return True
+            if self._chart is not None and premises.grants(
+                self._chart[0].vanishes(restricted, self._chart[1])
+            ):
+                return premises.conclude(True)
             raise NotEvident(restricted, "a minor seems to vanish on a part of the configuration space")
-        return not self.component.prime and self.component.ideal.radical_contains(polynomial)
+        if self.component.prime:
+            return premises.conclude(False)
+        return premises.pass_on(self.component.ideal.radical_contains(polynomial))

@@ -11,7 +11,7 @@ from singsym.classes.strata.patches import Patch
 from singsym.effort import patience
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import current
-from singsym.effort.verdict import Certainty, note, unnoted, weakest
+from singsym.effort.verdict import Known, Premises, Verdict
 from singsym.elimination import engines
 from singsym.varieties.decomposition import Component
 from singsym.varieties.real.numerical.sampling import Points, numerical_points
@@ -45,8 +45,8 @@ def points_on(system: RealSystem, patch: Patch, count: int = 3) -> Points:
 
 def is_proven_empty(
     system: RealSystem, seconds: float = patience.EMPTINESS.seconds, *, modular: bool = True
-) -> bool:
-    """Whether it is shown in so many seconds that there is no real point.
+) -> Verdict:
+    """Whether there is no real point: yes where that is shown in so many seconds, else undecided.
 
     modular: whether an answer that rests on primes will do: with patience only where there is no better one.
     """
@@ -54,37 +54,35 @@ def is_proven_empty(
     longer = engines.proof_patience() if modular else 1.0
     chart = Cartesian.of(system)
 
-    def no_complex_point() -> bool:
+    def no_complex_point() -> Verdict:
         most = min(seconds, patience.HASTY_EMPTINESS.work) if hasty else seconds
         with attempt("a proof that there is no complex point", most * longer):
             return chart.is_empty(patience.QUICK_EMPTINESS.work if modular and hasty else None)
-        return False
+        return Verdict.undecided("that there is no complex point was not shown in time")
 
-    def no_real_point() -> bool:
-        return is_empty_over_reals(chart.trimmed, current().part(seconds * longer), tries=0).is_yes
+    def no_real_point() -> Verdict:
+        return is_empty_over_reals(chart.trimmed, current().part(seconds * longer), tries=0)
 
-    doubtful: list[Certainty] = []
+    doubtful = Verdict.undecided("that there is no real point was not shown in time")
     for proof in (no_complex_point, no_real_point):
-        with unnoted() as seen:
-            answer = proof()
-        if answer and ((modular and hasty) or weakest(*seen) == "proven"):
-            note(weakest(*seen))
-            return True
-        if answer:
-            doubtful += seen
-    if doubtful and modular:
-        note(weakest(*doubtful))
-    return bool(doubtful) and modular
+        answer = proof()
+        if answer.is_yes and ((modular and hasty) or answer.certainty == "proven"):
+            return answer
+        if answer.is_yes and modular:
+            doubtful = answer
+    return doubtful
 
 
-def samples_of(component: Component, feasible: RealSystem) -> Points | None:
-    """Real points of a component, numerical ones that only guide; None where it is proven to have none."""
-    if is_excluded(component, feasible):
-        return None
+def samples_of(component: Component, feasible: RealSystem) -> Known[Points | None]:
+    """Real points of a component, numerical ones that only guide; None where it is shown to have none."""
+    premises = Premises()
+    if premises.take(is_excluded(component, feasible)):
+        return premises.conclude(None)
     if component.dimension == 0:
-        points = [p for p in real_points(component.ideal) if feasible.admits(p)]
-        return tuple(p.floats for p in points) or None
-    found = numerical_points(replace(feasible, equations=component.generators))
-    if not found and is_empty_over_reals(replace(feasible, equations=component.generators), tries=0).is_yes:
-        return None
-    return found
+        points = [p for p in premises.take(real_points(component.ideal)) if feasible.admits(p)]
+        return premises.conclude(tuple(p.floats for p in points) or None)
+    system = replace(feasible, equations=component.generators)
+    found = numerical_points(system)
+    if not found and premises.grants(is_empty_over_reals(system, tries=0)):
+        return premises.conclude(None)
+    return premises.conclude(found)

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from singsym.classes.strata.block_rank import block_rank, numerical_minor, union_of_loci
 from singsym.classes.strata.ground import Ground
 from singsym.classes.taxonomy.types import Defects, SingularityType
+from singsym.effort.verdict import Known, Premises
 from singsym.minors.rank import simplest_blocks
 from singsym.polynomials import Equations, Polynomial, PolynomialMatrix
 from singsym.varieties.decomposition import Component
@@ -112,7 +113,7 @@ def ranked(
     first: str = "L_O",
     least: Least | None = None,
     evident: tuple[SingularityType, ...] = (),
-) -> Ranked:
+) -> Known[Ranked]:
     """The generic ranks on a ground off its exclusions, and the loci of lower rank that matter for the types.
 
     Matrix by matrix, each taken apart anew with what is solved for put in, and with the loci of those before
@@ -126,7 +127,7 @@ def ranked(
     >>> row = PolynomialMatrix.of(R, [[x, y]])
     >>> parts = {name: row.select(columns=c) for name, c in (("L_I", [0]), ("L_O", [1]), ("L_p", []))}
     >>> plane = Ground(Patch(R, {}, ()), ((1.0, 2.0),))
-    >>> ranked(RankProblem({"L": row, **parts}, 0, 1, 1), plane, RealSystem(R, ())).loci
+    >>> ranked(RankProblem({"L": row, **parts}, 0, 1, 1), plane, RealSystem(R, ())).value.loci
     {(y,): {'L_O': 1}, (x,): {'L_I': 1}}
     """
     other = {"L_O": "L_I", "L_I": "L_O"}[first]
@@ -138,7 +139,7 @@ def ranked(
     if not ranks.defect["L"] and not ranks.defect["L_p"]:
         possible = (_OWN[first], _BOTH) if ranks.defect[first] else (SingularityType(0), _OWN[other])
         if set(possible) <= set(evident):
-            return Ranked(None, ranks.loci)
+            return ranks.premises.conclude(Ranked(None, ranks.loci))
     before = {locus: dict(there) for locus, there in ranks.loci.items()}
     ranks.examine(other)
     defect = ranks.defect
@@ -146,7 +147,7 @@ def ranked(
     matters = other in relevant(defects) or not ranks.highest[other]
     loci = ranks.loci if matters else before
     found = Stratum(ground.equations, defects, tuple(loci), ground.component)
-    return Ranked(None if defects.types in evident else found, loci)
+    return ranks.premises.conclude(Ranked(None if defects.types in evident else found, loci))
 
 
 @dataclass
@@ -155,7 +156,7 @@ class _Ranks:
 
     least: how far at least each is below full rank; defect: how far it is, off the loci; highest: whether it
         is proven nowhere higher; loci: of lower rank, with how far at least the matrices are below full rank
-        there.
+        there; premises: what all this rests on.
     """
 
     problem: RankProblem
@@ -165,6 +166,7 @@ class _Ranks:
     defect: dict[str, int] = field(default_factory=lambda: {"L": 0, "L_p": 0})
     highest: dict[str, bool] = field(default_factory=lambda: dict.fromkeys(_BELOW, True))
     loci: dict[Equations, dict[str, int]] = field(default_factory=dict)
+    premises: Premises = field(default_factory=Premises)
 
     def examine(self, name: str) -> None:
         """The rank of one matrix; it is taken apart off the loci known before, and says nothing on them."""
@@ -178,7 +180,7 @@ class _Ranks:
         self.least[name] = max(full - most, *(self.least.get(other, 0) for other in _BELOW[name]))
         largest = sum(len(rows) for rows, _ in starts) == full - self.least[name]
         found = [
-            block_rank(block, ground, certifier, start, largest)
+            self.premises.take(block_rank(block, ground, certifier, start, largest))
             for block, start in zip(parts.blocks, starts, strict=True)
         ]
         self.defect[name] = full - sum(block.rank for block in found)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from singsym.effort.budget import Budget, Undecided
-from singsym.effort.verdict import Certainty
+from singsym.effort.verdict import Certainty, Known
 from singsym.polynomials import Polynomial, Ring
 
 
@@ -57,6 +57,11 @@ class EngineAnswer:
     ideals: tuple[tuple[Polynomial, ...], ...]
     engine: str
     certainty: Certainty = "proven"
+
+    @property
+    def known(self) -> Known[tuple[tuple[Polynomial, ...], ...]]:
+        """The ideals with how they are known."""
+        return Known(self.ideals, self.certainty)
 
 
 class Engine(Protocol):

@@ -12,7 +12,7 @@ from flint import fmpq_mpoly, fmpz_mpoly, fmpz_mpoly_vec
 
 from singsym.effort import chance
 from singsym.effort.chance import PRIMES, numbers_in, random_primes
-from singsym.effort.verdict import Certainty
+from singsym.effort.verdict import Certainty, Premises
 from singsym.elimination.engines.base import EngineAnswer, EngineFailure, Task
 from singsym.elimination.engines.division import remainder, s_polynomial
 from singsym.polynomials import Exponents, Polynomial, Ring
@@ -131,22 +131,28 @@ def compare_modulo_primes(
 def check_ideals(task: Task, answer: EngineAnswer, solve: Callable[[Task], EngineAnswer]) -> Certainty:
     """Check an elimination, a saturation or a decomposition; `solve` gives checked Groebner bases.
 
-    Raises `EngineFailure` where it is wrong; "modular" where equality is the engine's word.
+    Raises `EngineFailure` where it is wrong; "modular" where equality is the engine's word, or a basis is not
+    proven.
     """
     ring, engine = task.ring, answer.engine
+    premises = Premises()
+
+    def basis_of(ring: Ring, generators: Sequence[Polynomial]) -> tuple[Polynomial, ...]:
+        return premises.take(solve(Task("groebner", ring, tuple(generators))).known)[0]
+
     if task.kind == "eliminate":
         free = all(p.degree(v.variables[0]) <= 0 for p in answer.ideals[0] for v in task.others)
-        basis = solve(Task("groebner", ring, task.generators)).ideals[0]
+        basis = basis_of(ring, task.generators)
         if not free or any(reduced_by(basis, p) for p in answer.ideals[0]):
             raise EngineFailure(engine, "returned a wrong elimination ideal")
         return "modular"
-    pieces = [solve(Task("groebner", ring, piece)).ideals[0] for piece in answer.ideals]
+    pieces = [basis_of(ring, piece) for piece in answer.ideals]
     if any(reduced_by(piece, p) for piece in pieces for p in task.generators):
         raise EngineFailure(engine, f"returned a wrong answer to {task.kind!r}: an input is not in it")
     if task.kind == "saturate":
         return "modular"
-    basis = solve(Task("groebner", ring, task.generators)).ideals[0]
-    return _check_complete(ring, basis, pieces, engine, solve)
+    premises.rest_on(_check_complete(ring, basis_of(ring, task.generators), pieces, engine, basis_of))
+    return premises.certainty
 
 
 def _check_complete(
@@ -154,7 +160,7 @@ def _check_complete(
     basis: Sequence[Polynomial],
     pieces: Sequence[Sequence[Polynomial]],
     engine: str,
-    solve: Callable[[Task], EngineAnswer],
+    basis_of: Callable[[Ring, Sequence[Polynomial]], tuple[Polynomial, ...]],
 ) -> Certainty:
     """Raise where the pieces leave out a component; "modular" where that rests on random numbers.
 
@@ -175,7 +181,7 @@ def _check_complete(
         for generators in useful:
             element = sum((p * t**k for k, p in enumerate(generators)), start=ring.zero)
             product = _remainder(basis, product * element)
-        if product and not _vanishes(ring, basis, product, solve):
+        if product and not _vanishes(ring, basis, product, basis_of):
             raise EngineFailure(engine, "returned an incomplete decomposition: a component is missing")
     return "proven" if proven else "modular"
 
@@ -184,13 +190,13 @@ def _vanishes(
     ring: Ring,
     basis: Sequence[Polynomial],
     polynomial: Polynomial,
-    solve: Callable[[Task], EngineAnswer],
+    basis_of: Callable[[Ring, Sequence[Polynomial]], tuple[Polynomial, ...]],
 ) -> bool:
     """Whether a polynomial vanishes on all zeros of a basis (Rabinowitsch)."""
     larger = ring.with_names((next(f"t{k}" for k in range(99) if f"t{k}" not in ring.names), *ring.names))
     system = [larger.convert(p) for p in basis]
     system.append(1 - larger.gens[0] * larger.convert(polynomial.squarefree_part()))
-    return solve(Task("groebner", larger, tuple(system))).ideals[0] == (larger.one,)
+    return basis_of(larger, system) == (larger.one,)
 
 
 def _remainder(basis: Sequence[Polynomial], polynomial: Polynomial) -> Polynomial:

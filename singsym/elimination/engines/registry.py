@@ -18,7 +18,6 @@ from singsym.effort import patience, progress
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Budget, Undecided, current
 from singsym.effort.processor_time import worked
-from singsym.effort.verdict import certainties, note, weakest
 from singsym.elimination.engines import checks
 from singsym.elimination.engines.base import (
     Engine,
@@ -100,22 +99,15 @@ def ask(task: Task, budget: Budget | None = None) -> EngineAnswer:
     for engine in candidates:
         work, share = _patience(task, engine, candidates, budget.remaining() is not None)
         if (answer := _attempt(engine, task, work, share, budget, failures)) is not None:
-            return _noted(task, answer)
+            return answer
     # engines that broke down give FLINT back the time that it was refused before
     broken = any(isinstance(failure, EngineFailure) for failure in failures)
     if broken and flint in candidates[:-1]:
         work = None if budget.remaining() is not None else patience.LAST.work
         answer = _attempt(flint, task, work, 1.0, budget, failures)
         if answer is not None:
-            return _noted(task, answer)
+            return answer
     raise EngineFailure(", ".join(e.name for e in candidates), "; ".join(map(str, failures)))
-
-
-def _noted(task: Task, answer: EngineAnswer) -> EngineAnswer:
-    """The answer, after `certainties` has heard how it is known; what holds modulo a prime is no matter."""
-    if not task.characteristic:
-        note(answer.certainty)
-    return answer
 
 
 def _attempt(
@@ -164,9 +156,7 @@ def _checked(task: Task, answer: EngineAnswer, work: float, budget: Budget) -> E
     if task.characteristic:
         return answer
     if task.kind != "groebner":
-        with certainties() as seen:
-            certainty = checks.check_ideals(task, answer, lambda t: ask(t, budget))
-        return replace(answer, certainty=weakest(certainty, *seen))
+        return replace(answer, certainty=checks.check_ideals(task, answer, lambda t: ask(t, budget)))
     if len(answer.ideals) != 1:
         raise EngineFailure(answer.engine, f"returned {len(answer.ideals)} bases for one ideal")
     checks.check_inputs(task, answer)

@@ -16,6 +16,7 @@ from singsym.classes.strata.ranks import Stratum
 from singsym.classes.taxonomy.types import Defects
 from singsym.classes.taxonomy.types import SingularityType as T
 from singsym.effort.budget import Undecided
+from singsym.effort.verdict import Known
 from singsym.elimination.ideal import Ideal
 from singsym.mechanism import load
 from singsym.polynomials import Ring
@@ -84,7 +85,7 @@ def test_a_dimension_bounded_modulo_a_prime(monkeypatch: pytest.MonkeyPatch) -> 
 
     class Endless(Ideal):
         @property
-        def dimension(self) -> int:
+        def dimension(self) -> Known[int]:
             raise Undecided("takes too long")
 
     monkeypatch.setattr("singsym.classes.realisation.dimension_bounds.Ideal", Endless)

@@ -21,6 +21,7 @@ from singsym.classes.strata.branches import Branch, Explored, explore, split_pro
 from singsym.classes.strata.ranks import RankProblem
 from singsym.classes.strata.search import search
 from singsym.classes.taxonomy.types import feasible_classes
+from singsym.effort.verdict import Known, Verdict
 from singsym.mechanism import load
 from singsym.polynomials import PolynomialMatrix, Ring
 from singsym.varieties.real.numerical.sampling import numerical_points
@@ -86,10 +87,10 @@ def test_parts_without_points_are_searched_on_their_own(monkeypatch: pytest.Monk
     row = PolynomialMatrix.of(ring, [[x, y]])
     parts = {name: row.select(columns=c) for name, c in (("L_I", [0]), ("L_O", [1]), ("L_p", []))}
     problem = RankProblem({"L": row, **parts}, 0, 1, 1)
-    monkeypatch.setattr(explore_module, "is_proven_empty", lambda *_, **__: False)
+    monkeypatch.setattr(explore_module, "is_proven_empty", lambda *_, **__: Verdict.undecided("not asked"))
     monkeypatch.setattr(explore_module, "points_on", lambda *_: ())
     monkeypatch.setattr("singsym.classes.strata.occurrence.numerical_points", lambda *_: ())
-    monkeypatch.setattr(explore_module, "real_consequences", lambda *_: [])
+    monkeypatch.setattr(explore_module, "real_consequences", lambda *_: Known([]))
     branch = Branch(problem, RealSystem(ring, ()), (x * y, 2 * z**4 - 3 * x + 5))
     first = explore(branch)
     assert not first.found

@@ -23,13 +23,13 @@ x, y = R.gens
 
 
 def ground(*equations: Polynomial) -> Ground:
-    (component,) = decompose(equations, ring=R)
+    (component,) = decompose(equations, ring=R).value
     points = numerical_points(RealSystem(R, equations))
     return Ground(Patch(R, {}, component.generators), points, component)
 
 
 def rank(matrix: PolynomialMatrix, where: Ground) -> BlockRank:
-    return block_rank(matrix, where, where.certifier(RealSystem(R, ()), ()))
+    return block_rank(matrix, where, where.certifier(RealSystem(R, ()), ())).value
 
 
 def test_rank_of_a_matrix_on_the_plane_and_on_a_line() -> None:
@@ -73,15 +73,15 @@ def row_problem() -> RankProblem:
 
 def test_ranks_on_the_plane_and_on_a_line() -> None:
     """Off the axes nothing is singular; L_O is where y = 0, and at the origin both are and so is L."""
-    plane = ranked(row_problem(), ground(), RealSystem(R, ()))
+    plane = ranked(row_problem(), ground(), RealSystem(R, ())).value
     assert plane.stratum is not None
     assert plane.stratum.defects == Defects(0, 0, 0, 0)
     assert set(plane.loci) == {(x,), (y,)}
-    line = ranked(row_problem(), ground(y), RealSystem(R, ()))
+    line = ranked(row_problem(), ground(y), RealSystem(R, ())).value
     assert line.stratum is not None
     assert line.stratum.defects == Defects(0, 0, 0, 1)
     assert line.loci == {(x,): {"L": 1}}
-    origin = ranked(row_problem(), ground(x, y), RealSystem(R, ()))
+    origin = ranked(row_problem(), ground(x, y), RealSystem(R, ())).value
     assert origin.stratum is not None
     assert (origin.stratum.defects, origin.loci) == (Defects(1, 0, 1, 1), {})
 
@@ -89,7 +89,7 @@ def test_ranks_on_the_plane_and_on_a_line() -> None:
 def test_what_is_known_is_not_written_again() -> None:
     """With full rank of L and L_p no stratum where its types are among those known."""
     known = (SingularityType(0), SingularityType.RO | SingularityType.II)
-    assert ranked(row_problem(), ground(), RealSystem(R, ()), evident=known).stratum is None
+    assert ranked(row_problem(), ground(), RealSystem(R, ()), evident=known).value.stratum is None
 
 
 def test_a_minor_that_only_seems_to_vanish_is_not_evident() -> None:

@@ -63,9 +63,9 @@ def test_points_are_reflected_with_their_equations() -> None:
     ring = Ring(("x", "y"))
     x, y = ring.gens
     equations = (x**2 + y**2 - 2, x - y**3)
-    for point in (*frozen_points(ring, equations, {}), boxed_point(ring, equations, {}, (1.0, 1.0))):
+    for point in (*frozen_points(ring, equations, {}).value, boxed_point(ring, equations, {}, (1.0, 1.0))):
         assert point is not None
         turned = point.reflect(["x"])
         assert turned.floats == (-point.floats[0], point.floats[1])
         assert [turned.sign(p) for p in image(equations, ("x",))] == [0, 0]
-    assert frozen_points(ring, equations, {"x": Fraction(1)})[0].reflect(["y"]).sign(y + 1) == 0
+    assert frozen_points(ring, equations, {"x": Fraction(1)}).value[0].reflect(["y"]).sign(y + 1) == 0

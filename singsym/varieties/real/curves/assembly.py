@@ -13,6 +13,7 @@ import numpy as np
 
 from singsym.effort.budget import Budget, Undecided
 from singsym.effort.progress import report
+from singsym.effort.verdict import Known, Premises
 from singsym.polynomials import Polynomial
 from singsym.varieties.real.curves.arithmetic import Array, Balls, System
 from singsym.varieties.real.curves.critical_points import Samples, as_balls, with_ends
@@ -188,19 +189,19 @@ def _edges(marked: _Marked, found: Sequence[Chain]) -> list[Edge]:
     return edges
 
 
-def extended(proof: Assembly, points: Sequence[RealPoint], budget: Budget) -> Assembly:
+def extended(proof: Assembly, points: Sequence[RealPoint], budget: Budget) -> Known[Assembly]:
     """The same curve, followed further towards its ends where some of these points are beyond them."""
     samples = proof.samples
     if samples is None or samples.level is None:
-        return proof
+        return Known(proof)
     inside = samples.objective - samples.level
     if all(point.sign(inside) < 0 for point in points):
-        return proof
-    further = with_ends(proof.equations, samples.objective, (*samples.points, *points), budget)
+        return Known(proof)
+    known, premises = Known((*samples.points, *points)), Premises()
+    further = premises.take(with_ends(proof.equations, samples.objective, known, budget))
     system = System(proof.equations[0].ring, proof.equations)
-    return assemble(
-        system, proof.equations, replace(further, points=samples.points), proof.stars, budget, True
-    )
+    own = replace(further, points=samples.points)
+    return premises.conclude(assemble(system, proof.equations, own, proof.stars, budget, True))
 
 
 def count_without(proof: Assembly, removed: Sequence[RealPoint], isolated: Sequence[RealPoint]) -> int:

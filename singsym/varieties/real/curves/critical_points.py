@@ -17,6 +17,7 @@ import numpy as np
 from singsym.effort import chance
 from singsym.effort.budget import Budget, Undecided
 from singsym.effort.progress import report
+from singsym.effort.verdict import Known, Premises
 from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.minors.determinant import determinant
 from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
@@ -47,7 +48,7 @@ class Samples:
     boxed: tuple[BoxPoint, ...] = ()
 
 
-def points_on_components(equations: Sequence[Polynomial], seed: int, budget: Budget) -> Samples | None:
+def points_on_components(equations: Sequence[Polynomial], seed: int, budget: Budget) -> Known[Samples] | None:
     """Samples of V(equations); `None` where every attempt meets infinitely many critical points.
 
     Lemma: where a function attains its minimum on a component it is critical.  A linear form does on a
@@ -61,15 +62,14 @@ def points_on_components(equations: Sequence[Polynomial], seed: int, budget: Bud
     for objective in _objectives(ring, gradients, bounded, rng):
         report("curve", f"critical points of {objective}")
         points = _critical_points(equations, gradients, objective, rng, budget)
-        if points is None:
-            continue
-        return with_ends(equations, objective, points, budget)
+        if points is not None:
+            return with_ends(equations, objective, points, budget)
     return None
 
 
 def distance_samples(
     equations: Sequence[Polynomial], near: Sequence[float], rng: Random, budget: Budget
-) -> Samples:
+) -> Known[Samples]:
     """Samples by the distance from a random point near another; raises `Undecided` if not isolated."""
     objective = distance_from(equations[0].ring, rng, near)
     points = _critical_points(equations, gradient_rows(equations), objective, rng, budget)
@@ -79,13 +79,19 @@ def distance_samples(
 
 
 def with_ends(
-    equations: Sequence[Polynomial], objective: Polynomial, points: tuple[RealPoint, ...], budget: Budget
-) -> Samples:
+    equations: Sequence[Polynomial],
+    objective: Polynomial,
+    points: Known[tuple[RealPoint, ...]],
+    budget: Budget,
+) -> Known[Samples]:
     """Samples at these points, with the ends beyond all of them where the curve may be unbounded."""
+    premises = Premises()
+    own = premises.take(points)
     if is_bounded(equations):
-        return Samples(objective, points)
-    level = level_above(objective, points)
-    return Samples(objective, points, real_points((*equations, objective - level), budget), level)
+        return premises.conclude(Samples(objective, own))
+    level = level_above(objective, own)
+    ends = premises.take(real_points((*equations, objective - level), budget))
+    return premises.conclude(Samples(objective, own, ends, level))
 
 
 def distance_from(ring: Ring, rng: Random, near: Sequence[float] = ()) -> Polynomial:
@@ -120,18 +126,19 @@ def _critical_points(
     objective: Polynomial,
     rng: Random,
     budget: Budget,
-) -> tuple[RealPoint, ...] | None:
+) -> Known[tuple[RealPoint, ...]] | None:
     critical = critical_determinant(gradients, objective, rng)
     if critical.is_zero:
         return None
     found: list[RealPoint] = []
+    premises = Premises()
     try:
         for factor in _split(critical):
             budget.check("critical points of a curve")
-            found.extend(real_points((*equations, factor), budget))
+            found += premises.take(real_points((*equations, factor), budget))
     except NotZeroDimensional:
         return None
-    return tuple(found)
+    return premises.conclude(tuple(found))
 
 
 def _split(critical: Polynomial) -> list[Polynomial]:
@@ -214,7 +221,7 @@ def _semidefinite(form: list[list[Fraction]], definite: bool = False) -> bool:
     return True
 
 
-def singular_points(equations: Sequence[Polynomial], budget: Budget) -> tuple[RealPoint, ...]:
+def singular_points(equations: Sequence[Polynomial], budget: Budget) -> Known[tuple[RealPoint, ...]]:
     """All real points of V(equations) at which the Jacobian has rank below n-1 (all minors are taken)."""
     ring = equations[0].ring
     size = len(ring.names) - 1

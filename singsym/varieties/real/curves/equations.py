@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import reduce as fold
 
 from singsym.effort.budget import Budget, Undecided
-from singsym.elimination.ideal import Ideal
+from singsym.effort.verdict import Known, Premises
+from singsym.elimination.ideal import Ideal, intersection
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.decomposition import Component, decompose
 from singsym.varieties.real.points.exact_point import RealPoint
@@ -26,31 +26,33 @@ class CurveEquations:
     points: tuple[RealPoint, ...] = ()
 
 
-def candidates(ring: Ring, generators: tuple[Polynomial, ...], budget: Budget) -> Iterator[CurveEquations]:
+def candidates(
+    ring: Ring, generators: tuple[Polynomial, ...], budget: Budget
+) -> Iterator[Known[CurveEquations]]:
     """Systems to try in turn; one with finitely many critical points is reduced.
 
     With n-1 equations every component has dimension at least 1, and finitely many critical points prove
     dimension 1.  With more, or where that fails, the system is decomposed first.
     Raises `NotACurve` naming the dimension where it is not 1.
     """
-    size = len(ring.names)
+    size, premises = len(ring.names), Premises()
     equations = tuple(
         dict.fromkeys(p.squarefree_part() for p in (*generators, *ring.relations) if not p.is_zero)
     )
     if any(p.is_constant for p in equations):
-        yield CurveEquations(())
+        yield Known(CurveEquations(()))
         return
     if len(equations) < size - 1:
-        dimension = Ideal(ring, equations).dimension
+        dimension = premises.take(Ideal(ring, equations).dimension)
         if dimension < 0:
-            yield CurveEquations(())
+            yield premises.conclude(CurveEquations(()))
             return
         _refuse(dimension, len(ring.constants))
     if len(equations) == size - 1:
-        yield CurveEquations(equations)
-    pieces = decompose(equations, ring=ring, budget=budget)
+        yield Known(CurveEquations(equations))
+    pieces = premises.take(decompose(equations, ring=ring, budget=budget))
     if not pieces:
-        yield CurveEquations(())
+        yield premises.conclude(CurveEquations(()))
         return
     dimension = max(p.dimension for p in pieces)
     if dimension != 1:
@@ -58,11 +60,12 @@ def candidates(ring: Ring, generators: tuple[Polynomial, ...], budget: Budget) -
     curves = [p for p in pieces if p.dimension == 1]
     if not all(p.is_pure for p in curves):
         raise Undecided("a part of the curve is not proven to have one dimension: it may hide points")
-    points = _isolated(pieces, curves, budget)
+    points = premises.take(_isolated(pieces, curves, budget))
     if len(equations) > size - 1 and not points:
-        yield CurveEquations(equations)
-    union = fold(lambda a, b: a.intersect(b, budget), (p.ideal for p in curves))
-    yield CurveEquations(union.groebner_basis(budget), points)
+        yield premises.conclude(CurveEquations(equations))
+    union = premises.take(intersection(ring, (p.ideal for p in curves), budget))
+    basis = premises.take(union.groebner_basis(budget))
+    yield premises.conclude(CurveEquations(basis, points))
 
 
 class NotACurve(ValueError):
@@ -78,13 +81,14 @@ def _refuse(dimension: int, constants: int) -> None:
 
 def _isolated(
     pieces: tuple[Component, ...], curves: list[Component], budget: Budget
-) -> tuple[RealPoint, ...]:
+) -> Known[tuple[RealPoint, ...]]:
     """The real points of the 0-dimensional pieces that lie on no curve."""
     found: list[RealPoint] = []
+    premises = Premises()
     for piece in pieces:
         if piece.dimension == 0:
-            for point in real_points(piece.generators, budget):
+            for point in premises.take(real_points(piece.generators, budget)):
                 on_curve = any(all(point.sign(g) == 0 for g in c.generators) for c in curves)
                 if not on_curve and not any(point.coincides(p) for p in found):
                     found.append(point)
-    return tuple(found)
+    return premises.conclude(tuple(found))

@@ -14,6 +14,7 @@ import numpy as np
 from flint import acb, arb, fmpq_poly
 
 from singsym.effort.budget import Budget, Undecided
+from singsym.effort.verdict import Known, Premises
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.real.curves.arithmetic import Array, Balls, System
 from singsym.varieties.real.curves.critical_points import as_balls
@@ -35,7 +36,7 @@ def branch_star(
     point: RealPoint,
     critical: Sequence[RealPoint],
     budget: Budget,
-) -> Star:
+) -> Known[Star]:
     """The star of a singular point; `critical` are all critical points of `objective` on the curve.
 
     Lemma: let no other critical point have its level in [c-, c+], and let the level of the point hold k other
@@ -43,14 +44,15 @@ def branch_star(
     once k arcs are proven to pass, the remaining points at c- and c+ lie on its half-branches.
     Raises `Undecided` where another critical point has the same level, or the arcs cannot be proven.
     """
-    passing = len(_fibre_through(equations, objective, point, budget)) - 1
+    premises = Premises()
+    passing = len(premises.take(_fibre_through(equations, objective, point, budget))) - 1
     below, above = _gap(objective, point, critical)
     for _ in range(_SLABS):
         low, high = _levels(objective, point, below, above)
-        fibres = [real_points((*equations, objective - c), budget) for c in (low, high)]
+        fibres = [premises.take(real_points((*equations, objective - c), budget)) for c in (low, high)]
         star = _count(system, objective, point, fibres, passing, budget)
         if star is not None:
-            return star
+            return premises.conclude(star)
         below, above = below / 16, above / 16
     raise Undecided(f"the branches of the curve at {point!r} could not be told apart")
 
@@ -90,13 +92,13 @@ def _levels(
 
 def _fibre_through(
     equations: Sequence[Polynomial], objective: Polynomial, point: RealPoint, budget: Budget
-) -> list[RealPoint]:
+) -> Known[list[RealPoint]]:
     """All real points of the curve with the same value of the objective as the point."""
     level = _level_polynomial(objective, point)
     fibre = real_points((*equations, level), budget)
     bits = 128
     own = _value(objective, point, bits)
-    return [p for p in fibre if _value(objective, p, bits).overlaps(own)]
+    return Known([p for p in fibre.value if _value(objective, p, bits).overlaps(own)], fibre.certainty)
 
 
 def _level_polynomial(objective: Polynomial, point: RealPoint) -> Polynomial:

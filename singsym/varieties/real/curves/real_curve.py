@@ -7,14 +7,14 @@ Source: critical points meet every component (curve_critical.py); proven tubes j
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import networkx as nx
 import numpy as np
 
 from singsym.effort.budget import Budget, Undecided, current
 from singsym.effort.progress import Sink, report, to
-from singsym.effort.verdict import Verdict, certainties, weakest
+from singsym.effort.verdict import Known, Premises, Verdict, weakest
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.real.curves.arithmetic import Array, System
@@ -80,27 +80,27 @@ class RealCurve:
             raise ValueError(f"the number of components is {self.verdict}")
         return len(self.components) + len(self.isolated_points)
 
-    def without(self, *exclusions: Polynomial, budget: Budget | None = None) -> int:
+    def without(self, *exclusions: Polynomial, budget: Budget | None = None) -> Known[int]:
         """How many connected components are left when the zeros of some polynomials are removed.
 
         Isolated points count.  Raises `NotZeroDimensional` where a polynomial vanishes on a whole component,
         and `Undecided` where the topology or the place of a removed point is not proven.
 
         >>> x, y = Ring(("x", "y")).gens
-        >>> real_curve([x**2 + y**2 - 1]).without(x, x - 2)
+        >>> real_curve([x**2 + y**2 - 1]).without(x, x - 2).value
         2
-        >>> real_curve([(x**2 + y**2 - 1) * (x - 5), (x**2 + y**2 - 1) * y]).without(x - 5)
+        >>> real_curve([(x**2 + y**2 - 1) * (x - 5), (x**2 + y**2 - 1) * y]).without(x - 5).value
         1
         """
         if self._proof is None:
             raise Undecided(f"the topology of the curve is {self.verdict}")
         isolated = [p for p in self.isolated_points if all(map(p.sign, exclusions))]
-        equations = self._proof.equations
+        equations, premises = self._proof.equations, Premises(self.verdict.certainty)
         if not equations:
-            return len(isolated)
-        removed = [p for e in exclusions for p in real_points((*equations, e), budget)]
-        proof = extended(self._proof, removed, current(budget))
-        return count_without(proof, removed, isolated)
+            return premises.conclude(len(isolated))
+        removed = [p for e in exclusions for p in premises.take(real_points((*equations, e), budget))]
+        proof = premises.take(extended(self._proof, removed, current(budget)))
+        return premises.conclude(count_without(proof, removed, isolated))
 
     def __repr__(self) -> str:
         if self.verdict.is_undecided:
@@ -135,7 +135,7 @@ def real_curve(
         raise ValueError("a curve is expected, not the whole space: no equations were given")
     ring: Ring = generators[0].ring
     budget = current(budget)
-    with to(progress), certainties() as seen:
+    with to(progress):
         for draw in range(_DRAWS):
             try:
                 found = _solved(ring, generators, budget, seed + draw, drawing)
@@ -143,41 +143,42 @@ def real_curve(
                 found = _undecided(ring, str(reason))
             if drawing or not found.verdict.is_undecided or budget.remaining() == 0.0:
                 break
-    if found.verdict.is_undecided:
-        return found
-    verdict = replace(found.verdict, certainty=weakest(found.verdict.certainty, *seen))
-    return replace(found, verdict=verdict)
+    return found
 
 
 def _solved(
     ring: Ring, generators: tuple[Polynomial, ...], budget: Budget, seed: int, drawing: bool
 ) -> RealCurve:
     reason = "no critical points could be found"
-    for choice in candidates(ring, generators, budget):
+    for known in candidates(ring, generators, budget):
+        choice = known.value
         if not choice.equations:
-            return _result(ring, Assembly.empty(), choice, drawing)
+            return _result(ring, Known(Assembly.empty()), known, drawing)
         samples = points_on_components(choice.equations, seed, budget)
         if samples is None:
             reason = "the critical points are not isolated: the equations are not reduced, or not of a curve"
             continue
         try:
-            return _result(ring, _topology(choice.equations, samples, seed, budget, drawing), choice, drawing)
+            topology = _topology(choice.equations, samples, seed, budget, drawing)
+            return _result(ring, topology, known, drawing)
         except OverflowError as error:
             raise Undecided(str(error)) from None
     raise Undecided(reason)
 
 
 def _topology(
-    equations: tuple[Polynomial, ...], samples: Samples, seed: int, budget: Budget, drawing: bool
-) -> Assembly:
-    system = System(equations[0].ring, equations)
+    equations: tuple[Polynomial, ...], known: Known[Samples], seed: int, budget: Budget, drawing: bool
+) -> Known[Assembly]:
+    system, premises = System(equations[0].ring, equations), Premises()
+    samples = premises.take(known)
     report("curve", f"{len(samples.points)} critical points, {len(samples.ends)} ends")
-    stars, samples = find_stars(system, equations, samples, seed, budget)
-    return assemble(system, equations, samples, stars, budget, prove=not drawing)
+    stars, samples = premises.take(find_stars(system, equations, samples, seed, budget))
+    return premises.conclude(assemble(system, equations, samples, stars, budget, prove=not drawing))
 
 
-def _result(ring: Ring, proof: Assembly, choice: CurveEquations, drawing: bool) -> RealCurve:
+def _result(ring: Ring, topology: Known[Assembly], chosen: Known[CurveEquations], drawing: bool) -> RealCurve:
     """The topology in the terms of the user, isolated points of the system itself included."""
+    proof, choice = topology.value, chosen.value
     constants = {c.name for c in ring.constants}
     kept = [i for i, name in enumerate(ring.names) if name not in constants]
     names = tuple(ring.names[i] for i in kept)
@@ -199,7 +200,8 @@ def _result(ring: Ring, proof: Assembly, choice: CurveEquations, drawing: bool) 
             data["component"] = number
         lines = tuple(data["polyline"] for *_, data in arcs)
         components.append(CurveComponent(names, not ends, ends, points, lines))
-    verdict = Verdict.yes("certified", reason="every arc is covered by proven tubes")
+    certainty = weakest("certified", topology.certainty, chosen.certainty)
+    verdict = Verdict.yes(certainty, reason="every arc is covered by proven tubes")
     if drawing:
         verdict = Verdict.undecided("drawn only: the arcs were tracked, but not proven")
     singular = tuple(s.point for s in proof.stars)

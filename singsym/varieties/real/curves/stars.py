@@ -11,6 +11,7 @@ import numpy as np
 
 from singsym.effort import chance
 from singsym.effort.budget import Budget, Undecided
+from singsym.effort.verdict import Known, Premises
 from singsym.polynomials import Polynomial
 from singsym.varieties.real.curves.arithmetic import Balls, System
 from singsym.varieties.real.curves.critical_points import Samples, as_balls, distance_samples, singular_points
@@ -25,7 +26,7 @@ _SEEDS = 3
 
 def find_stars(
     system: System, equations: Sequence[Polynomial], samples: Samples, seed: int, budget: Budget
-) -> tuple[list[Star], Samples]:
+) -> Known[tuple[list[Star], Samples]]:
     """The stars at all real singular points, and samples that hold the singular points as well.
 
     The samples are replaced by those of a distance where a point needs the fibres of one.  Raises `Undecided`
@@ -34,8 +35,9 @@ def find_stars(
     size = len(system.ring.names)
     balls = as_balls(samples.points, size)
     if is_regular(system, balls).all():
-        return [], samples
-    singular = singular_points(equations, budget)
+        return Known(([], samples))
+    premises = Premises()
+    singular = premises.take(singular_points(equations, budget))
     stars: list[Star] = []
     difficult: list[RealPoint] = []
     for point in singular:
@@ -45,21 +47,22 @@ def find_stars(
         else:
             stars.append(star)
     if not difficult:
-        return stars, samples
+        return premises.conclude((stars, samples))
     reason = Undecided("no distance with isolated critical points was found")
     rng = chance.random("distances to singular points", seed)
     for _ in range(_SEEDS):
         try:
-            samples = distance_samples(equations, difficult[0].floats, rng, budget)
-            critical = samples.points
+            samples = premises.take(distance_samples(equations, difficult[0].floats, rng, budget))
+            objective, critical = samples.objective, samples.points
             found = [
-                branch_star(system, equations, samples.objective, p, critical, budget) for p in difficult
+                premises.take(branch_star(system, equations, objective, p, critical, budget))
+                for p in difficult
             ]
         except Undecided as undecided:
             budget.check("singular points of a curve")
             reason = undecided
             continue
-        return [*stars, *found], samples
+        return premises.conclude(([*stars, *found], samples))
     raise reason
 
 

@@ -18,6 +18,7 @@ from flint import fmpq
 
 from singsym.effort import chance
 from singsym.effort.budget import current
+from singsym.effort.verdict import Verdict
 from singsym.elimination.elimination_orders import without_zeros_of
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.modulo_primes import residues
@@ -29,21 +30,23 @@ from singsym.varieties.unit_circles import Pair, unit_circles
 MOST_CHOICES = 300
 """Sets with more choices of coordinates are not looked at."""
 WIDEST = 2**20
+_MISSED = Verdict.yes("modular", reason="random values miss the set")
+_MET = Verdict.undecided("random values may meet the set")
 
 
-def are_dependent(system: RealSystem, dimension: int, circles: Iterable[Pair] = ()) -> bool:
-    """Whether no more coordinates than a dimension take random values together on a set, modulo primes.
+def are_dependent(system: RealSystem, dimension: int, circles: Iterable[Pair] = ()) -> Verdict:
+    """Whether no more coordinates than a dimension take random values together on a set: yes or undecided.
 
     circles: pairs of variables that are on the unit circle on all of the set, besides those of which an
-    equation says so.  Zeros of an exclusion's sum of squares do not count.  False proves nothing.
+    equation says so.  Zeros of an exclusion's sum of squares do not count.  A yes is "modular".
     Raises `Undecided` out of budget, `EngineUnavailable` without an engine for it.
 
     >>> R = Ring(("x", "y", "z"))
     >>> x, y, z = R.gens
     >>> axes = RealSystem(R, (x * y, x * z))
-    >>> [are_dependent(axes, d) for d in (1, 2)]
+    >>> [are_dependent(axes, d).is_yes for d in (1, 2)]
     [False, True]
-    >>> are_dependent(RealSystem(R, (x * y, x * z), exclusions=((x,),)), 1)
+    >>> are_dependent(RealSystem(R, (x * y, x * z), exclusions=((x,),)), 1).is_yes
     True
     """
     equations = system.closed_equations
@@ -51,37 +54,38 @@ def are_dependent(system: RealSystem, dimension: int, circles: Iterable[Pair] = 
     count = dimension + 1 - (len(system.ring.names) - len(ring.names))
     coordinates = _coordinates(ring, {*unit_circles(equations), *circles})
     if count <= 0 or comb(len(coordinates), count) > MOST_CHOICES:
-        return False
+        return _MET
     random = chance.random("independent coordinates", *equations)
     small = [ring.convert(p) for p in equations]
     nonzero = [ring.convert(p) for p in system.away if set(p.variables) <= set(ring.names)]
     for chosen in combinations(coordinates, count):
         values = {name: value for names in chosen for name, value in random_values(ring, names, random)}
-        if not is_missed(small, values, nonzero):
-            return False
-    return True
+        if not is_missed(small, values, nonzero).is_yes:
+            return _MET
+    return _MISSED
 
 
 def is_missed(
     equations: Sequence[Polynomial],
     values: Mapping[str, Polynomial],
     nonzero: Sequence[Polynomial] = (),
-) -> bool:
-    """Whether equations have no zero at given values of variables, off those of `nonzero`, modulo primes.
+) -> Verdict:
+    """Whether equations have no zero at random values of variables, off those of `nonzero`.
 
+    A yes is "modular"; else it is undecided.
     Raises `Undecided` out of budget, `EngineUnavailable` without an engine for it.
     """
     current().check("a bound of a dimension")
     left = [q for p in equations if (q := p.substitute(dict(values)))]
     if any(p.is_constant for p in left):
-        return True
+        return _MISSED
     if not left:
-        return False
+        return _MET
     ring = left[0].ring
     if _is_empty(ring, left):
-        return True
+        return _MISSED
     away = [q for p in nonzero if not (q := p.substitute(dict(values))).is_constant]
-    return bool(away) and _is_empty(*without_zeros_of(ring, left, *away))
+    return _MISSED if away and _is_empty(*without_zeros_of(ring, left, *away)) else _MET
 
 
 def random_values(ring: Ring, names: tuple[str, ...], random: Random) -> Iterator[tuple[str, Polynomial]]:

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from singsym.effort.budget import Budget, Undecided, current
+from singsym.effort.verdict import Known, Premises
 from singsym.polynomials import Polynomial
 from singsym.varieties.decomposition import Component, decompose
 from singsym.varieties.purity import PurePiece, pure_or_whole
@@ -21,6 +22,8 @@ from singsym.varieties.real.proofs.emptiness import border_polynomials, is_empty
 from singsym.varieties.real.system import RealSystem
 
 _RANK_BITS = (64, 256)
+Dimension = tuple[int, Witness | None]
+"""A real dimension with a point where the set has it; (-1, None) of the empty set."""
 
 
 def local_dimension(point: RealPoint | BoxPoint | Witness, piece: PurePiece) -> int | None:
@@ -34,8 +37,8 @@ def local_dimension(point: RealPoint | BoxPoint | Witness, piece: PurePiece) -> 
     >>> from singsym.varieties.real.points.certified_point import frozen_points
     >>> R = Ring(("x", "y"))
     >>> x, y = R.gens
-    >>> circle = PurePiece.of(decompose([x**2 + y**2 - 1], ring=R)[0])
-    >>> local_dimension(frozen_points(R, circle.ideal.generators, {"x": Fraction(0)})[0], circle)
+    >>> circle = PurePiece.of(decompose([x**2 + y**2 - 1], ring=R).value[0])
+    >>> local_dimension(frozen_points(R, circle.ideal.generators, {"x": Fraction(0)}).value[0], circle)
     1
     """
     place = point.point if isinstance(point, Witness) else point
@@ -52,7 +55,10 @@ def independent(equations: Sequence[Polynomial], point: RealPoint | BoxPoint) ->
     >>> from singsym.varieties.real.points.certified_point import frozen_points
     >>> R = Ring(("x", "y"))
     >>> x, y = R.gens
-    >>> [independent((f,), frozen_points(R, (f,), {"x": Fraction(0)})[0]) for f in (x**2 + y**2 - 1, y**2)]
+    >>> [
+    ...     independent((f,), frozen_points(R, (f,), {"x": Fraction(0)}).value[0])
+    ...     for f in (x**2 + y**2 - 1, y**2)
+    ... ]
     [True, False]
     """
     return has_rank(equations, point, len(equations))
@@ -71,9 +77,7 @@ def has_rank(equations: Sequence[Polynomial], point: RealPoint | BoxPoint, rank:
     return False
 
 
-def real_dimension(
-    system: RealSystem, budget: Budget | None = None, *, seed: int = 0
-) -> tuple[int, Witness | None]:
+def real_dimension(system: RealSystem, budget: Budget | None = None, *, seed: int = 0) -> Known[Dimension]:
     """The dimension of the real solution set and a point where it has it; (-1, None) where it is empty.
 
     Raises `Undecided` with the reason.
@@ -81,30 +85,32 @@ def real_dimension(
     >>> from singsym.polynomials import Ring
     >>> R = Ring(("x", "y", "z"))
     >>> x, y, z = R.gens
-    >>> [real_dimension(RealSystem(R, (f,)))[0] for f in (x**2 + y**2 + z**2 - 1, x**4 + y**2 - z**4 * x)]
-    [2, 2]
-    >>> [real_dimension(RealSystem(R, (f,)))[0] for f in (x**2 + y**2, x**2 + y**2 + z**2, x**2 + 1)]
-    [1, 0, -1]
+    >>> quadrics = (x**2 + y**2 + z**2 - 1, x**2 + y**2, x**2 + y**2 + z**2, x**2 + 1)
+    >>> [real_dimension(RealSystem(R, (f,))).value[0] for f in (*quadrics, x**4 + y**2 - z**4 * x)]
+    [2, 1, 0, -1, 2]
     """
     with current(budget).part() as limited:
         return _real_dimension(system, limited, seed)
 
 
-def _real_dimension(system: RealSystem, budget: Budget, seed: int) -> tuple[int, Witness | None]:
-    best: tuple[int, Witness | None] = (-1, None)
-    pieces = decompose(system.closed_equations, system.nonzero, ring=system.ring, budget=budget)
-    components = pure_or_whole(pieces, system.closed_equations, system.ring)
+def _real_dimension(system: RealSystem, budget: Budget, seed: int) -> Known[Dimension]:
+    best: Dimension = (-1, None)
+    premises = Premises()
+    pieces = premises.take(
+        decompose(system.closed_equations, system.nonzero, ring=system.ring, budget=budget)
+    )
+    components = premises.take(pure_or_whole(pieces, system.closed_equations, system.ring))
     for component in sorted(components, key=lambda c: -c.dimension):
         if component.dimension <= best[0]:
             continue
-        found = component_dimension(component, system, budget, seed=seed)
+        found = premises.take(component_dimension(component, system, budget, seed=seed))
         best = max(best, found, key=lambda pair: pair[0])
-    return best
+    return premises.conclude(best)
 
 
 def component_dimension(
     component: Component, system: RealSystem, budget: Budget | None = None, *, seed: int = 0
-) -> tuple[int, Witness | None]:
+) -> Known[Dimension]:
     """The same for one component in place of the system's equations, which are used where they hold on it.
 
     Raises `Undecided` also where the component is not proven to have one dimension.
@@ -112,35 +118,35 @@ def component_dimension(
     >>> from singsym.polynomials import Ring
     >>> R = Ring(("x", "y"))
     >>> x, y = R.gens
-    >>> circle = decompose([x**2 + y**2 - 1], ring=R)[0]
-    >>> component_dimension(circle, RealSystem(R, (), positive=(x,)))[0]
+    >>> circle = decompose([x**2 + y**2 - 1], ring=R).value[0]
+    >>> component_dimension(circle, RealSystem(R, (), positive=(x,))).value[0]
     1
     """
-    budget = current(budget)
-    if is_excluded(component, system):
-        return -1, None
+    budget, premises = current(budget), Premises()
+    if premises.take(is_excluded(component, system)):
+        return premises.conclude((-1, None))
     piece = replace(system, equations=component.generators)
     if component.dimension == 0:
-        return _zero_or_empty(piece, budget, seed)
+        return premises.pass_on(_zero_or_empty(piece, budget, seed))
     pure = PurePiece.of(component)
     # where the inequalities are strict they are open and do not touch the dimension
-    boundaries = tuple(p for p in system.nonnegative if not component.vanishes(p))
+    boundaries = tuple(p for p in system.nonnegative if not premises.take(component.vanishes(p)))
     strict = replace(piece, positive=(*system.positive, *boundaries), nonnegative=())
     found = find_witness(strict, seed=seed, tries=8, dimension=component.dimension, budget=budget)
     if found is not None and local_dimension(found, pure) is not None:
-        return component.dimension, found
-    borders = tuple(border_polynomials(component, strict))
-    points, singular = regular_samples(pure, system.closed_equations, budget, nonzero=borders)
+        return premises.conclude((component.dimension, found))
+    borders = premises.take(border_polynomials(component, strict))
+    points, singular = premises.take(regular_samples(pure, system.closed_equations, budget, nonzero=borders))
     point = next((p for p in points if strict.admits(p)), None)
     if point is not None:
-        return component.dimension, Witness(point)
+        return premises.conclude((component.dimension, Witness(point)))
     smaller = [singular.generators, *((*component.generators, p) for p in boundaries)]
-    parts = [real_dimension(replace(system, equations=e), budget, seed=seed) for e in smaller]
-    return max(parts, key=lambda pair: pair[0])
+    parts = [premises.take(real_dimension(replace(system, equations=e), budget, seed=seed)) for e in smaller]
+    return premises.conclude(max(parts, key=lambda pair: pair[0]))
 
 
-def _zero_or_empty(system: RealSystem, budget: Budget, seed: int) -> tuple[int, Witness | None]:
+def _zero_or_empty(system: RealSystem, budget: Budget, seed: int) -> Known[Dimension]:
     verdict = is_empty_over_reals(system, budget, seed=seed)
     if verdict.is_undecided:
         raise Undecided(verdict.reason)
-    return (-1, None) if verdict.is_yes else (0, verdict.witness)
+    return Known((-1, None), verdict.certainty) if verdict.is_yes else Known((0, verdict.witness))

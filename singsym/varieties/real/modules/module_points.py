@@ -15,6 +15,7 @@ from flint import arb
 from singsym.effort import patience
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Undecided, current
+from singsym.effort.verdict import Known, Premises
 from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.elimination.memo import remember
 from singsym.polynomials import Equations, Polynomial, Ring
@@ -33,8 +34,10 @@ MOST_SOLUTIONS = 1000
 """A first module with a larger bound of Bezout is not solved by algebra where it is a tower."""
 
 
-def module_points(equations: Equations) -> tuple[BoxPoint, ...]:
+def module_points(equations: Equations) -> Known[tuple[BoxPoint, ...]]:
     """All real points of equations that come apart into modules, each certified; none has a multiplicity.
+
+    The certainty is that of there being no others.
 
     Lemma: the real points of all equations are those of the first modules with, over each, the assemblies of
     the next module, and so on; equations that are left over hold at them or not.
@@ -43,7 +46,7 @@ def module_points(equations: Equations) -> tuple[BoxPoint, ...]:
 
     >>> from singsym.polynomials import Ring
     >>> x, y, z = Ring(("x", "y", "z")).gens
-    >>> [p.decimals(4)["z"] for p in module_points((x**2 - 3, y * x - 1, y**2 + z**2 - 1))]
+    >>> [p.decimals(4)["z"] for p in module_points((x**2 - 3, y * x - 1, y**2 + z**2 - 1)).value]
     ['-0.8165', '0.8165', '-0.8165', '0.8165']
     """
     key = (equations[0].ring, equations)
@@ -62,7 +65,7 @@ def comes_apart(equations: Equations) -> bool:
     return all(len(m.unknowns) < whole for m in block_form(equations).modules)
 
 
-def _points(equations: Equations) -> tuple[BoxPoint, ...]:
+def _points(equations: Equations) -> Known[tuple[BoxPoint, ...]]:
     ring = equations[0].ring
     form = block_form(equations)
     if sum(len(m.unknowns) for m in form.modules) < len(ring.names):
@@ -70,12 +73,13 @@ def _points(equations: Equations) -> tuple[BoxPoint, ...]:
     hard = [m for m in form.modules if not _is_first(m, ring) and not is_simple(m)]
     if hard:
         raise Undecided(f"a module with unknowns {', '.join(hard[0].unknowns)} is not simple")
-    first = {m: _exact(m, ring) for m in form.modules if _is_first(m, ring)}
+    premises = Premises()
+    first = {m: premises.take(_exact(m, ring)) for m in form.modules if _is_first(m, ring)}
     failure = Undecided("no precision was tried")
     for bits in PRECISIONS:
         try:
             with at_precision(bits):
-                return tuple(_certified(form, ring, first, bits))
+                return premises.conclude(tuple(_certified(form, ring, first, bits)))
         except Undecided as reason:
             current().check("points by modules")
             failure = reason
@@ -87,19 +91,20 @@ def _is_first(module: Module, ring: Ring) -> bool:
     return set(module.parents) <= {c.name for c in ring.constants}
 
 
-def _exact(module: Module, ring: Ring) -> tuple[BoxPoint, ...]:
+def _exact(module: Module, ring: Ring) -> Known[tuple[BoxPoint, ...]]:
     """All real points of a first module, with the fixed numbers in it, in boxes that are quick to refine."""
     names = {*module.unknowns, *module.parents}
     own = ring.with_names(tuple(n for n in ring.names if n in names))
     equations = tuple(dict.fromkeys((*map(own.convert, module.equations), *own.relations)))
     if prod(p.total_degree for p in equations) > MOST_SOLUTIONS and is_tower(equations):
-        return points_on_tower(equations, current())
+        return Known(points_on_tower(equations, current()))
     with attempt("the points of a module by algebra", patience.FIRST_MODULE.work):
         try:
-            return tuple(_boxed(point, equations) for point in real_points(equations))
+            points = real_points(equations)
+            return points.map(lambda found: tuple(_boxed(point, equations) for point in found))
         except NotZeroDimensional as reason:
             raise Undecided(f"a module by itself: {reason}") from None
-    return points_on_tower(equations, current())
+    return Known(points_on_tower(equations, current()))
 
 
 def _boxed(point: RealPoint, equations: Equations) -> BoxPoint:

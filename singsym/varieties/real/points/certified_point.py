@@ -19,7 +19,7 @@ from singsym.effort import patience
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Budget, Undecided, current
 from singsym.effort.chaos import strikes
-from singsym.effort.verdict import Certainty
+from singsym.effort.verdict import Certainty, Known
 from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.real.points.boxed_point import BoxPoint, boxed_point
@@ -270,7 +270,8 @@ def _certified(
         suppress(NotZeroDimensional),
         attempt("the search for a real point", patience.POINT.work, part_of=budget) as own,
     ):
-        points = frozen_points(ring, equations, values, own)
+        # each is a point; whether there are others is no matter
+        points = frozen_points(ring, equations, values, own).value
     order = sorted(points, key=lambda p: sum((a - b) ** 2 for a, b in zip(p.floats, sample, strict=True)))
     return next((p for p in order if system.admits(p)), None)
 
@@ -292,22 +293,22 @@ def _certified_box(
 
 def frozen_points(
     ring: Ring, equations: Sequence[Polynomial], values: dict[str, Fraction], budget: Budget | None = None
-) -> list[RealPoint]:
+) -> Known[list[RealPoint]]:
     """All real points of the equations with these coordinates at these rationals, exactly.
 
     >>> R = Ring(("x", "y"))
     >>> x, y = R.gens
-    >>> frozen_points(R, [x**2 + y**2 - 1], {"x": Fraction(3, 5)})
+    >>> frozen_points(R, [x**2 + y**2 - 1], {"x": Fraction(3, 5)}).value
     [RealPoint(x=0.600000, y=-0.800000), RealPoint(x=0.600000, y=0.800000)]
     """
     names = tuple(n for n in ring.names if n not in values)
     smaller = ring.with_names(names)
     if not names:
         zero = all(f.substitute(values).is_zero for f in equations)
-        return [_rational_point(ring, values)] if zero else []
+        return Known([_rational_point(ring, values)] if zero else [])
     restricted = [smaller.convert(f.substitute(values)) for f in equations]
     points = real_points([*restricted, *smaller.relations] or [smaller.zero], budget)
-    return [_lifted(p, ring, values) for p in points]
+    return points.map(lambda found: [_lifted(p, ring, values) for p in found])
 
 
 def _rational_point(ring: Ring, values: dict[str, Fraction]) -> RealPoint:

@@ -7,7 +7,6 @@ Source: Faugere et al. (1993) and Rouillier (1999), see quotient.py and parametr
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from itertools import islice
 from math import lcm
 from typing import Any
@@ -18,7 +17,7 @@ from singsym.effort.attempts import cut_short
 from singsym.effort.budget import Budget, Undecided, current
 from singsym.effort.chance import PRIMES, random_primes
 from singsym.effort.processor_time import worked
-from singsym.effort.verdict import note
+from singsym.effort.verdict import Known, Premises
 from singsym.elimination import engines
 from singsym.elimination.basis import canonical, groebner_basis
 from singsym.elimination.engines.base import NotZeroDimensional
@@ -54,9 +53,10 @@ _PROOF_COST = 1e11
 
 def real_points(
     equations: Ideal | Sequence[Polynomial], budget: Budget | None = None
-) -> tuple[RealPoint, ...]:
+) -> Known[tuple[RealPoint, ...]]:
     """All real points of a zero-dimensional system, in increasing order of the coordinates.
 
+    Each is a point of it; the certainty is that of there being no others.
     equations: an `Ideal`, or polynomials of one ring; the relations of the ring's constants are added, and
     points with a conjugate of a constant are dropped.  Multiplicities are not told.  A ring without variables
     has one point.
@@ -64,20 +64,22 @@ def real_points(
 
     >>> from singsym.polynomials import Ring
     >>> x, y = Ring(("x", "y")).gens
-    >>> [p.decimals(4) for p in real_points([x**2 + y**2 - 4, x - y])]
+    >>> [p.decimals(4) for p in real_points([x**2 + y**2 - 4, x - y]).value]
     [{'x': '-1.414', 'y': '-1.414'}, {'x': '1.414', 'y': '1.414'}]
     """
-    found = parametrized(equations, budget)
-    return tuple(p for p in real_points_of(found) if pinned(p, found.ring.constants))
+    points = parametrized(equations, budget).map(real_points_of)
+    return points.map(lambda found: tuple(p for p in found if pinned(p, p.ring.constants)))
 
 
-def parametrized(equations: Ideal | Sequence[Polynomial], budget: Budget | None = None) -> Parametrization:
+def parametrized(
+    equations: Ideal | Sequence[Polynomial], budget: Budget | None = None
+) -> Known[Parametrization]:
     """All complex points of a zero-dimensional system as functions of the roots of one polynomial.
 
     FLINT's basis first where it takes milliseconds, then msolve's parametrisation where it is there, then the
     easy equations' basis with the hard ones by linear algebra, then any engine's basis.  Every point is
-    proven by substitution, modulo primes where that is too dear and `certainty` stays "modular"; that none is
-    missing is proven where `certainty` is "proven".
+    proven by substitution, modulo primes where that is too dear and the certainty stays "modular"; it is
+    "proven" where that none is missing is proven.
     """
     budget = current(budget)
     if not isinstance(equations, Ideal):
@@ -89,35 +91,34 @@ def parametrized(equations: Ideal | Sequence[Polynomial], budget: Budget | None 
     if not system:
         if ring.names:
             raise NotZeroDimensional("only zero equations: the whole space")
-        return Parametrization(ring, fmpz_poly([0, 1]), fmpz_poly([1]), ())
-    found = remember("points", (ring, frozenset(system)), lambda: _solve(ring, system, budget), budget)
-    note(found.certainty)
-    return found
+        return Known(Parametrization(ring, fmpz_poly([0, 1]), fmpz_poly([1]), ()))
+    return remember("points", (ring, frozenset(system)), lambda: _solve(ring, system, budget), budget)
 
 
-def _solve(ring: Ring, system: tuple[Polynomial, ...], budget: Budget) -> Parametrization:
+def _solve(ring: Ring, system: tuple[Polynomial, ...], budget: Budget) -> Known[Parametrization]:
     def check() -> None:
         budget.check("the quotient algebra of a zero-dimensional system")
 
     known = is_known("groebner", (ring, frozenset(system)), budget)
-    found = None
     if not known and "flint" in engines.allowed():
         whole = _capped_basis(ring, system)
         if whole is not None:
-            return _from_basis(ring, whole, system, check)
+            return Known(_from_basis(ring, whole, system, check))
     if not known and engines.has("msolve"):
         start = worked()
         found = _by_msolve(ring, system, budget)
-        if found is not None and _is_known_complete(found, system, worked() - start, check):
-            found = replace(found, certainty="proven")
+        if found is not None:
+            complete = _is_known_complete(found, system, worked() - start, check)
+            return Known(found, "proven" if complete else "modular")
     elif not known and "flint" in engines.allowed():
         easy, hard = _easy_part(ring, system)
-        algebra = quotient_algebra_over(Ideal(ring, easy), hard, check) if easy else None
-        found = None if algebra is None else _points(algebra, system, check)
-    if found is not None:
-        return found
-    basis = groebner_basis(ring, system, budget)
-    return replace(_from_basis(ring, basis.polynomials, system, check), certainty=basis.certainty)
+        algebra = quotient_algebra_over(Ideal(ring, easy), hard, check) if easy else Known(None)
+        found = None if algebra.value is None else _points(algebra.value, system, check)
+        if found is not None:
+            return Known(found, algebra.certainty)
+    premises = Premises()
+    basis = premises.take(groebner_basis(ring, system, budget))
+    return premises.conclude(_from_basis(ring, basis.polynomials, system, check))
 
 
 def _from_basis(
@@ -165,7 +166,7 @@ def _by_msolve(ring: Ring, system: Sequence[Polynomial], budget: Budget) -> Para
         return None
     if raw is None:
         one, none = fmpz_poly([1]), fmpz_poly([])
-        return Parametrization(ring, one, one, (none,) * len(ring.names), "modular")
+        return Parametrization(ring, one, one, (none,) * len(ring.names))
     found, separating = _read(ring, raw)
     return found if separating and all(_holds(found, f, budget) for f in system) else None
 
@@ -214,9 +215,7 @@ def _read(ring: Ring, raw: RawParametrization) -> tuple[Parametrization, bool]:
     minimal = fmpz_poly([c // content for c in minimal.coeffs()])
     separating = any(divides(minimal, form - s * root) for s in (1, -1))
     squarefree = minimal.gcd(minimal.derivative()).degree() == 0
-    return Parametrization(
-        ring, minimal, denominator, tuple(numerators), "modular"
-    ), separating and squarefree
+    return Parametrization(ring, minimal, denominator, tuple(numerators)), separating and squarefree
 
 
 def pinned(point: RealPoint | BoxPoint, constants: Sequence[AlgebraicConstant]) -> bool:

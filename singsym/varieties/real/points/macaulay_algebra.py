@@ -12,9 +12,10 @@ from math import lcm
 from flint import fmpq, fmpq_mat, nmod_mat
 
 from singsym.effort.chance import random_primes
+from singsym.effort.verdict import Known, Premises
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.monomial_ideals import divides
-from singsym.polynomials import Exponents, Polynomial
+from singsym.polynomials import Exponents, Polynomial, Ring
 from singsym.varieties.real.points.quotient_algebra import Algebra, Check, degrevlex, quotient_algebra
 
 _MOST_COLUMNS = 1200
@@ -23,42 +24,47 @@ Vector = dict[Exponents, fmpq]
 
 def quotient_algebra_over(
     easy: Ideal, hard: Sequence[Polynomial], check: Check = lambda: None
-) -> Algebra | None:
+) -> Known[Algebra | None]:
     """Multiplication matrices of Q[names]/(easy + hard) on spanning monomials; `None` where it grows too big.
 
     The rewriting rules are exact elements of the ideal, so the monomials span the quotient and no point is
     missing; the matrices commute modulo a prime only, so that points found with them must be substituted.
     """
-    if easy.is_unit():
-        return quotient_algebra(easy.ring, easy.groebner_basis(), check)
-    rows = _Rows(easy, hard)
+    premises = Premises()
+    unit, known = premises.take(easy.is_unit()), premises.take(easy.groebner_basis())
+    if unit:
+        return premises.conclude(quotient_algebra(easy.ring, known, check))
+    rows = _Rows(easy.ring, known, [premises.take(easy.normal_form(f)) for f in hard])
     for degree in range(rows.first, rows.first + 12):
         check()
         rows.extend_to(degree, check)
         if len(rows.columns) > _MOST_COLUMNS:
-            return None
+            break
         reduced = rows.reduced_modulo_prime()
         if reduced is None:
             continue
         pivots, chosen = reduced
         basis = rows.basis(pivots)
         if basis is not None and rows.commute(basis, pivots, chosen):
-            return rows.algebra(basis, pivots, chosen, check)
-    return None
+            return premises.conclude(rows.algebra(basis, pivots, chosen, check))
+    return Known(None)
 
 
 class _Rows:
-    """Normal forms of monomial multiples of the hard equations modulo the easy ones, up to a degree."""
+    """Normal forms of monomial multiples of the hard equations modulo the easy ones, up to a degree.
 
-    def __init__(self, easy: Ideal, hard: Sequence[Polynomial]) -> None:
-        self.ring = easy.ring
+    easy: a Groebner basis; hard: normal forms by it.
+    """
+
+    def __init__(self, ring: Ring, easy: Sequence[Polynomial], hard: Sequence[Polynomial]) -> None:
+        self.ring = ring
         self.rules: dict[Exponents, Vector] = {}
-        for g in easy.groebner_basis():
+        for g in easy:
             (head, lead), *tail = _terms(g)
             self.rules[head] = {m: -c / lead for m, c in tail}
         self.forms: dict[Exponents, Vector] = {}
         self.layers: list[list[Exponents]] = [[(0,) * len(self.ring.names)]]
-        self.hard = [dict(_terms(f)) for f in (easy.normal_form(f) for f in hard) if f]
+        self.hard = [dict(_terms(f)) for f in hard if f]
         self.degrees = [max(map(sum, f)) for f in self.hard]
         self.first = max(self.degrees, default=1)
         self.multiples: list[dict[Exponents, Vector]] = [{} for _ in self.hard]

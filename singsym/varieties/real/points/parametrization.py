@@ -13,7 +13,6 @@ from flint import fmpz, fmpz_mat, fmpz_poly, nmod_mat, nmod_poly
 from flint.utils.flint_exceptions import DomainError
 
 from singsym.effort.chance import random, random_primes, sparing_prime
-from singsym.effort.verdict import Certainty
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.real.points.quotient_algebra import Algebra
 
@@ -24,15 +23,13 @@ Check = Callable[[], None]
 class Parametrization:
     """All points of a finite set: coordinate i is numerators[i] / denominator at the roots of minimal.
 
-    minimal is squarefree; all three are polynomials over Z, constant coefficient first.  The points are
-    proven; `certainty` says how it is known that none is missing.
+    minimal is squarefree; all three are polynomials over Z, constant coefficient first.
     """
 
     ring: Ring
     minimal: fmpz_poly
     denominator: fmpz_poly
     numerators: tuple[fmpz_poly, ...]
-    certainty: Certainty = "proven"
 
     def image(self, polynomial: Polynomial, check: Check = lambda: None) -> fmpz_poly:
         """A multiple of `polynomial` at the points, by a power of the denominator and a nonzero integer."""

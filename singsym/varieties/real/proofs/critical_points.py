@@ -14,14 +14,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from functools import partial
 from math import comb, prod
 from random import Random
 
 from singsym.effort import chance, patience
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Budget, Undecided, current
-from singsym.effort.verdict import noted_if_true
+from singsym.effort.verdict import Known, Premises
 from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.elimination.ideal import Ideal
 from singsym.minors.determinant import minors
@@ -43,7 +42,7 @@ def sample_points(
     budget: Budget | None = None,
     *,
     nonzero: Sequence[Polynomial] = (),
-) -> tuple[RealPoint, ...]:
+) -> Known[tuple[RealPoint, ...]]:
     """At least one real point on every connected component of the real zero set; none proves it empty.
 
     nonzero: polynomials whose zeros are removed before components are counted.
@@ -51,18 +50,19 @@ def sample_points(
 
     >>> R = Ring(("x", "y"))
     >>> x, y = R.gens
-    >>> sample_points(R, [x**2 + y**2 + 1])
+    >>> sample_points(R, [x**2 + y**2 + 1]).value
     ()
-    >>> len(sample_points(R, [(x**2 + y**2 - 1) * ((x - 4) ** 2 + y**2 - 1)])) >= 2
+    >>> len(sample_points(R, [(x**2 + y**2 - 1) * ((x - 4) ** 2 + y**2 - 1)]).value) >= 2
     True
     """
     system = [f for f in (*equations, *ring.relations) if not f.is_zero]
     found: list[RealPoint] = []
+    premises = Premises()
     with current(budget).part() as limited:
-        pieces = decompose(system, nonzero, ring=ring, budget=limited)
-        for component in pure_or_whole(pieces, system, ring):
-            found.extend(component_samples(component, system, limited, nonzero=nonzero))
-    return tuple(dict.fromkeys(found))
+        pieces = premises.take(decompose(system, nonzero, ring=ring, budget=limited))
+        for component in premises.take(pure_or_whole(pieces, system, ring)):
+            found += premises.take(component_samples(component, system, limited, nonzero=nonzero))
+    return premises.conclude(tuple(dict.fromkeys(found)))
 
 
 def component_samples(
@@ -71,7 +71,7 @@ def component_samples(
     budget: Budget | None = None,
     *,
     nonzero: Sequence[Polynomial] = (),
-) -> tuple[RealPoint, ...]:
+) -> Known[tuple[RealPoint, ...]]:
     """The same for one piece; raises `Undecided` where it is not proven to have one dimension.
 
     equations: some that vanish on it, which may be simpler than its generators; others are not used.
@@ -80,20 +80,25 @@ def component_samples(
     budget.check("real points on every component")
     ring, dimension = component.ideal.ring, component.dimension
     if dimension < 0:
-        return ()
+        return Known(())
+    premises = Premises()
     if dimension == 0:
-        return _pinned(real_points(component.ideal, budget), nonzero)
+        points = premises.take(real_points(component.ideal, budget))
+        return premises.conclude(_pinned(points, nonzero))
     piece = PurePiece.of(component)
     if not piece.codimension and not nonzero:
-        return (_origin(ring),)
-    known = _holding(component, equations)
+        return Known((_origin(ring),))
+    known = premises.take(_holding(component, equations))
     # finitely many critical and singular points together: then the piece is reduced and nothing is left
     chosen = next(_choices(piece, known))
     try:
-        return _critical_points(piece, known, chosen, nonzero, chance.random("critical points"), budget)
+        random = chance.random("critical points")
+        critical = _critical_points(piece, known, chosen, nonzero, random, budget)
+        return premises.pass_on(critical)
     except NotZeroDimensional:
-        found, singular = regular_samples(piece, known, budget, nonzero=nonzero)
-    return (*found, *sample_points(ring, singular.generators, budget, nonzero=nonzero))
+        found, singular = premises.take(regular_samples(piece, known, budget, nonzero=nonzero))
+    others = premises.take(sample_points(ring, singular.generators, budget, nonzero=nonzero))
+    return premises.conclude((*found, *others))
 
 
 def regular_samples(
@@ -102,7 +107,7 @@ def regular_samples(
     budget: Budget | None = None,
     *,
     nonzero: Sequence[Polynomial] = (),
-) -> tuple[tuple[RealPoint, ...], Ideal]:
+) -> Known[tuple[tuple[RealPoint, ...], Ideal]]:
     """A point on every connected component of the part where some gradients are independent; and the rest.
 
     The rest is an ideal of the piece's other points.  Where the first part has no real point, the real piece
@@ -110,17 +115,19 @@ def regular_samples(
 
     >>> R = Ring(("x", "y"))
     >>> x, y = R.gens
-    >>> [len(regular_samples(PurePiece.of(c))[0]) for c in decompose([x**2 + y**2], ring=R)]
+    >>> [len(regular_samples(PurePiece.of(c)).value[0]) for c in decompose([x**2 + y**2], ring=R).value]
     [0]
     """
     budget = current(budget)
-    known = _holding(piece.component, equations)
-    chosen, border, singular = _regular_part(piece, known, budget)
+    premises = Premises()
+    known = premises.take(_holding(piece.component, equations))
+    chosen, border, singular = premises.take(_regular_part(piece, known, budget))
     random = chance.random("critical points")
     for _ in range(_CENTRES):
         try:
             outside = (*nonzero, *border)
-            return _critical_points(piece, known, chosen, outside, random, budget), singular
+            points = premises.take(_critical_points(piece, known, chosen, outside, random, budget))
+            return premises.conclude((points, singular))
         except NotZeroDimensional:
             continue
     what = f"the critical points on {piece.component!r} are not finite"
@@ -131,14 +138,16 @@ def _origin(ring: Ring) -> RealPoint:
     return RealPoint(ring, (0, 1), (1,), ((),) * len(ring.names), Fraction(0), Fraction(0))
 
 
-def _holding(component: Component, equations: Sequence[Polynomial]) -> tuple[Polynomial, ...]:
+def _holding(component: Component, equations: Sequence[Polynomial]) -> Known[tuple[Polynomial, ...]]:
     """Those of the equations that are not zero and vanish on the whole piece."""
-    return tuple(f for f in equations if not f.is_zero and component.vanishes(f))
+    premises = Premises()
+    found = tuple(f for f in equations if not f.is_zero and premises.take(component.vanishes(f)))
+    return premises.conclude(found)
 
 
 def _regular_part(
     piece: PurePiece, known: tuple[Polynomial, ...], budget: Budget
-) -> tuple[tuple[Polynomial, ...], tuple[Polynomial, ...], Ideal]:
+) -> Known[tuple[tuple[Polynomial, ...], tuple[Polynomial, ...], Ideal]]:
     """As many polynomials zero on the piece as its codimension, and where their gradients are dependent.
 
     Between the two: a polynomial that vanishes there, and not on a whole component of the piece, if needed.
@@ -147,20 +156,25 @@ def _regular_part(
     """
     ring, ideal = piece.ring, piece.ideal
     if not piece.codimension:
-        return (), (), Ideal(ring, (ring.one,))
+        return Known(((), (), Ideal(ring, (ring.one,))))
+    premises = Premises()
     for chosen in _choices(piece, known):
         budget.check("real points on every component")
         matrix = PolynomialMatrix.of(ring, jacobian(chosen, ring.names))
-        found = [m for minor in _all_minors(matrix, piece.codimension) if (m := ideal.reduce(minor))]
+        dependent = _all_minors(matrix, piece.codimension)
+        found = [m for minor in dependent if (m := premises.take(ideal.reduce(minor)))]
         if not found:
             continue
         singular = ideal + Ideal(ring, found)
-        if singular.is_unit():
-            return chosen, (), singular
+        if premises.take(singular.is_unit()):
+            return premises.conclude((chosen, (), singular))
         for minor in sorted((m.squarefree_part() for m in found), key=lambda m: (m.total_degree, len(m))):
             # on a prime every minor that is not in the ideal cuts the dimension down
-            if piece.component.prime or (ideal + Ideal(ring, (minor,))).dimension < piece.dimension:
-                return chosen, (minor,), singular
+            if (
+                piece.component.prime
+                or premises.take((ideal + Ideal(ring, (minor,))).dimension) < piece.dimension
+            ):
+                return premises.conclude((chosen, (minor,), singular))
     raise Undecided(f"no reduced generators were found for {piece.component!r}")
 
 
@@ -218,26 +232,26 @@ def _critical_points(
     nonzero: Sequence[Polynomial],
     random: Random,
     budget: Budget,
-) -> tuple[RealPoint, ...]:
+) -> Known[tuple[RealPoint, ...]]:
     """The real points outside the zeros of `nonzero` where H^2 / q^k is critical or `local` not regular.
 
     Raises `NotZeroDimensional` where they are infinitely many.
     """
     budget.check("critical points")
-    ring = piece.ring
-    border = prod((piece.ideal.reduce(p) for p in nonzero), start=ring.one)
+    ring, premises = piece.ring, Premises()
+    border = prod((premises.take(piece.ideal.reduce(p)) for p in nonzero), start=ring.one)
     if border.is_zero:
-        return ()
+        return premises.conclude(())
     border = border.squarefree_part()
-    equations = _few_equations(piece, known)
+    equations = premises.take(_few_equations(piece, known))
     if border.is_constant:
-        system = (*equations, *_dependences(piece, local, ring.one, random))
-        return _pinned(real_points(Ideal(ring, system), budget))
+        system = (*equations, *premises.take(_dependences(piece, local, ring.one, random)))
+        return premises.conclude(_pinned(premises.take(real_points(Ideal(ring, system), budget))))
     wide = ring.with_names((*ring.names, "1/border"))
-    system = (*equations, *_dependences(piece, local, border, random))
+    system = (*equations, *premises.take(_dependences(piece, local, border, random)))
     outside = wide.gens[-1] * wide.convert(border) - 1
-    points = real_points(Ideal(wide, (*map(wide.convert, system), outside)), budget)
-    return _pinned([dropped(p, ring) for p in points])
+    points = premises.take(real_points(Ideal(wide, (*map(wide.convert, system), outside)), budget))
+    return premises.conclude(_pinned([dropped(p, ring) for p in points]))
 
 
 def _all_minors(matrix: PolynomialMatrix, size: int) -> list[Polynomial]:
@@ -249,7 +263,7 @@ def _all_minors(matrix: PolynomialMatrix, size: int) -> list[Polynomial]:
     return [minor for _, _, minor in minors(matrix, size)]
 
 
-def _few_equations(piece: PurePiece, known: tuple[Polynomial, ...]) -> tuple[Polynomial, ...]:
+def _few_equations(piece: PurePiece, known: tuple[Polynomial, ...]) -> Known[tuple[Polynomial, ...]]:
     """A few equations of the piece in place of a long Groebner basis, where some are quickly seen to do."""
     generators = piece.ideal.generators
     shortest = sorted(generators, key=lambda f: (f.total_degree, len(f)))
@@ -257,18 +271,15 @@ def _few_equations(piece: PurePiece, known: tuple[Polynomial, ...]) -> tuple[Pol
         if not 0 < 2 * len(chosen) < len(generators):
             continue
         with attempt("the equations of a piece", patience.CHOICE.work):
-            if noted_if_true(partial(_generate, chosen, generators)):
-                return chosen
-    return generators
-
-
-def _generate(chosen: Sequence[Polynomial], others: Sequence[Polynomial]) -> bool:
-    return all(map(Ideal(chosen[0].ring, chosen).contains, others))
+            enough = Ideal(chosen[0].ring, chosen).contains(piece.ideal)
+            if enough.value:
+                return Known(chosen, enough.certainty)
+    return Known(generators)
 
 
 def _dependences(
     piece: PurePiece, local: Sequence[Polynomial], border: Polynomial, random: Random
-) -> tuple[Polynomial, ...]:
+) -> Known[tuple[Polynomial, ...]]:
     """Where the gradients of `local` and of 2 log H - k log q, times H q, are dependent."""
     ring = piece.ring
     centre = [ring.constant(random.randint(-40, 40)) / random.randint(7, 13) for _ in ring.names]
@@ -281,7 +292,8 @@ def _dependences(
         direction = [2 * q * border.derivative(n) - k * border * q.derivative(n) for n in ring.names]
     rows = [*jacobian(local, ring.names), direction]
     found = _all_minors(PolynomialMatrix.of(ring, rows), len(local) + 1)
-    return tuple(map(piece.ideal.reduce, found))
+    premises = Premises()
+    return premises.conclude(tuple(premises.take(piece.ideal.reduce(minor)) for minor in found))
 
 
 def _pinned(points: Sequence[RealPoint], nonzero: Sequence[Polynomial] = ()) -> tuple[RealPoint, ...]:

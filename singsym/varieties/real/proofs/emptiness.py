@@ -6,7 +6,7 @@ Source: Basu, Pollack, Roy, Algorithms in Real Algebraic Geometry (2006), ch. 12
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 from flint import fmpz_poly
@@ -15,7 +15,7 @@ from singsym.effort import patience
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Budget, Undecided, current
 from singsym.effort.chance import BY_PRIMES
-from singsym.effort.verdict import Verdict, certainties
+from singsym.effort.verdict import Known, Premises, Verdict, weakest
 from singsym.polynomials import Polynomial
 from singsym.polynomials.sums_of_squares import sum_of_squares
 from singsym.varieties.decomposition import Component, decompose
@@ -46,29 +46,27 @@ def is_empty_over_reals(
     <Answer.NO: 'no'>
     """
     try:
-        with current(budget).part() as limited, certainties() as seen:
+        with current(budget).part() as limited:
             verdict = _decided(system, limited, seed, tries)
     except Undecided as reason:
         return Verdict.undecided(str(reason))
-    if verdict.is_yes and "modular" in seen:
-        return replace(
-            verdict, certainty="modular", engine="msolve", reason=f"{verdict.reason} ({BY_PRIMES})"
-        )
+    if verdict.is_yes and verdict.certainty == "modular":
+        return replace(verdict, engine="msolve", reason=f"{verdict.reason} ({BY_PRIMES})")
     return verdict
 
 
 def _decided(system: RealSystem, budget: Budget, seed: int, tries: int) -> Verdict:
-    equations = system.closed_equations
-    forced = real_consequences(system, equations)
+    equations, premises = system.closed_equations, Premises()
+    forced = premises.take(real_consequences(system, equations))
     if forced is None:
-        return Verdict.yes(reason=CONTRADICTED)
+        return Verdict.yes(premises.certainty, reason=CONTRADICTED)
     equations = (*equations, *forced)
-    pieces = decompose(equations, system.nonzero, ring=system.ring, budget=budget)
-    components = tuple(c for c in pieces if not is_excluded(c, system))
+    pieces = premises.take(decompose(equations, system.nonzero, ring=system.ring, budget=budget))
+    components = tuple(c for c in pieces if not premises.take(is_excluded(c, system)))
     if not components:
-        return Verdict.yes(reason="there is no complex solution")
+        return Verdict.yes(premises.certainty, reason="there is no complex solution")
     reasons, doubts = [], []
-    for component in pure_or_whole(components, equations, system.ring):
+    for component in premises.take(pure_or_whole(components, equations, system.ring)):
         try:
             verdict = _component_verdict(component, system, equations, budget, seed, tries)
         except Undecided as doubt:
@@ -76,15 +74,19 @@ def _decided(system: RealSystem, budget: Budget, seed: int, tries: int) -> Verdi
             continue
         if verdict.is_no:
             return verdict
+        premises.rest_on(verdict.certainty)
         reasons.append(verdict.reason)
     if doubts:
         return Verdict.undecided("; ".join(dict.fromkeys(doubts)))
-    return Verdict.yes(reason="; ".join(dict.fromkeys(reasons)))
+    return Verdict.yes(premises.certainty, reason="; ".join(dict.fromkeys(reasons)))
 
 
-def is_excluded(component: Component, system: RealSystem) -> bool:
+def is_excluded(component: Component, system: RealSystem) -> Known[bool]:
     """Whether all polynomials of one of the exclusions vanish on a component."""
-    return any(all(component.vanishes(g) for g in group) for group in system.exclusions)
+    premises = Premises()
+    return premises.conclude(
+        any(all(premises.take(component.vanishes(g)) for g in group) for group in system.exclusions)
+    )
 
 
 def _component_verdict(
@@ -95,58 +97,68 @@ def _component_verdict(
     seed: int,
     tries: int,
 ) -> Verdict:
-    piece = replace(system, equations=component.generators)
+    piece, premises = replace(system, equations=component.generators), Premises()
     if component.dimension == 0:
-        return _from_points(real_points(component.ideal, budget), piece, "finitely many complex solutions")
-    if _no_real_coordinate(component):
-        return Verdict.yes(reason="a polynomial in one variable has no real root")
-    if _contradiction(component, system):
-        return Verdict.yes(reason="a condition contradicts sums of squares")
-    forced = real_consequences(system, component.generators, equations)
+        return _from_points(real_points(component.ideal, budget), piece)
+    if premises.take(_no_real_coordinate(component)):
+        return Verdict.yes(premises.certainty, reason="a polynomial in one variable has no real root")
+    if premises.take(_contradiction(component, system)):
+        return Verdict.yes(premises.certainty, reason="a condition contradicts sums of squares")
+    forced = premises.take(real_consequences(system, component.generators, equations))
     if forced is None:
-        return Verdict.yes(reason=CONTRADICTED)
-    if not all(component.vanishes(f) for f in forced):
-        return _decided(replace(system, equations=(*component.generators, *forced)), budget, seed, tries)
+        return Verdict.yes(premises.certainty, reason=CONTRADICTED)
+    if not all(premises.take(component.vanishes(f)) for f in forced):
+        smaller = replace(system, equations=(*component.generators, *forced))
+        return _resting_on(premises, _decided(smaller, budget, seed, tries))
     found = None
     with attempt("the search for a real point", patience.POINT_SEARCH.work, part_of=budget) as own:
         found = find_witness(piece, seed=seed, tries=tries, dimension=component.dimension, budget=own)
     if found is not None:
         return Verdict.no(found.certainty, witness=found)
-    return _by_samples(component, piece, equations, budget)
+    return _resting_on(premises, _by_samples(component, piece, equations, budget))
 
 
-def _from_points(points: Sequence[RealPoint], system: RealSystem, what: str) -> Verdict:
-    for p in points:
+def _resting_on(premises: Premises, verdict: Verdict) -> Verdict:
+    """A verdict of which a yes rests on further premises; a point shows by itself that the answer is no."""
+    if not verdict.is_yes:
+        return verdict
+    return replace(verdict, certainty=weakest(premises.certainty, verdict.certainty))
+
+
+def _from_points(points: Known[tuple[RealPoint, ...]], system: RealSystem) -> Verdict:
+    for p in points.value:
         if system.admits(p):
             return Verdict.no(witness=Witness(p))
-    return Verdict.yes(reason=f"{what}, none real and admitted")
+    return Verdict.yes(points.certainty, reason="finitely many complex solutions, none real and admitted")
 
 
 # -- cheap certificates --------------------------------------------------------------------------------
 
 
-def _contradiction(component: Component, system: RealSystem) -> bool:
+def _contradiction(component: Component, system: RealSystem) -> Known[bool]:
     """Whether a polynomial required positive is, on the component, minus a sum of squares (or the like)."""
+    premises = Premises()
     for p in (*system.positive, *system.nonnegative):
-        for form in (p, component.ideal.normal_form(p)):
+        for form in (p, premises.take(component.ideal.normal_form(p))):
             squares = sum_of_squares(form) if form else (-1, ())
             if squares is None or squares[0] > 0:
                 continue
             if p in system.positive or any(r.is_constant for r in squares[1]):
-                return True
-    return False
+                return premises.conclude(True)
+    return premises.conclude(False)
 
 
-def _no_real_coordinate(component: Component) -> bool:
-    for f in component.ideal.groebner_basis():
+def _no_real_coordinate(component: Component) -> Known[bool]:
+    basis = component.ideal.groebner_basis()
+    for f in basis.value:
         if len(f.variables) == 1:
             k = f.ring.index(f.variables[0])
             coefficients = [0] * (f.total_degree + 1)
             for m, c in f.integer().terms():
                 coefficients[int(m[k])] = int(c)
             if not has_real_root(fmpz_poly(coefficients)):
-                return True
-    return False
+                return Known(True, basis.certainty)
+    return Known(False, basis.certainty)
 
 
 # -- points on every component ---------------------------------------------------------------------------
@@ -159,20 +171,24 @@ def _by_samples(
 
     The closed set is only sampled where it seems to have no point, or is crossed by no border.
     """
-    closed = RealSystem(system.ring, component.generators)
-    borders = _crossed(component, system, budget) if numerical_points(closed, 1) else None
+    closed, premises = RealSystem(system.ring, component.generators), Premises()
+    borders = None
+    if numerical_points(closed, 1):
+        borders = premises.take(_crossed(component, system, budget))
     if not borders:
-        points = component_samples(component, equations, budget)
+        points = premises.take(component_samples(component, equations, budget))
         if not points:
-            return Verdict.yes(reason="no real point is nearest to a generic one")
+            return Verdict.yes(premises.certainty, reason="no real point is nearest to a generic one")
         admitted = _admitted(points, system)
         if admitted is not None:
             return Verdict.no(witness=Witness(admitted))
         if borders is None:
-            borders = _crossed(component, system, budget)
+            borders = premises.take(_crossed(component, system, budget))
     if not borders:
-        return Verdict.yes(reason="a condition fails on every connected component, which it does not cross")
-    admitted = _admitted(component_samples(component, equations, budget, nonzero=borders), system)
+        reason = "a condition fails on every connected component, which it does not cross"
+        return Verdict.yes(premises.certainty, reason=reason)
+    points = premises.take(component_samples(component, equations, budget, nonzero=borders))
+    admitted = _admitted(points, system)
     if admitted is not None:
         return Verdict.no(witness=Witness(admitted))
     for p in set(system.nonnegative) & set(borders):
@@ -183,29 +199,35 @@ def _by_samples(
             raise Undecided(verdict.reason)
         if verdict.is_no:
             return verdict
-    return Verdict.yes(reason="a condition fails on every connected component between its borders")
+        premises.rest_on(verdict.certainty)
+    reason = "a condition fails on every connected component between its borders"
+    return Verdict.yes(premises.certainty, reason=reason)
 
 
 def _admitted(points: Sequence[RealPoint], system: RealSystem) -> RealPoint | None:
     return next((p for p in points if system.admits(p) and not any(map(p.sign, system.equations))), None)
 
 
-def border_polynomials(component: Component, system: RealSystem) -> Iterator[Polynomial]:
+def border_polynomials(component: Component, system: RealSystem) -> Known[list[Polynomial]]:
     """Polynomials that do not vanish where the conditions hold strictly; not those zero on all of a piece."""
-    for p in (*system.positive, *system.nonnegative):
-        if p in system.positive or not component.vanishes(p):
-            yield p
+    premises = Premises()
+    conditions = (*system.positive, *system.nonnegative)
+    found = [p for p in conditions if p in system.positive or not premises.take(component.vanishes(p))]
     for group in system.exclusions:
-        yield group[0] if len(group) == 1 else sum((g * g for g in group), start=system.ring.zero)
+        found.append(group[0] if len(group) == 1 else sum((g * g for g in group), start=system.ring.zero))
+    return premises.conclude(found)
 
 
-def _crossed(component: Component, system: RealSystem, budget: Budget) -> list[Polynomial]:
-    return [p for p in border_polynomials(component, system) if _is_crossed(component, p, budget)]
+def _crossed(component: Component, system: RealSystem, budget: Budget) -> Known[list[Polynomial]]:
+    """The borders that may have real points on a piece."""
+    premises = Premises()
+    borders = premises.take(border_polynomials(component, system))
+    return premises.conclude([p for p in borders if not premises.grants(_is_apart(component, p, budget))])
 
 
-def _is_crossed(component: Component, border: Polynomial, budget: Budget) -> bool:
-    """Whether a border may have real points on a piece."""
+def _is_apart(component: Component, border: Polynomial, budget: Budget) -> Verdict:
+    """Whether a border has no real points on a piece."""
     system = RealSystem(component.ideal.ring, (*component.generators, border))
     with attempt("real points where a condition changes", patience.POINT_SEARCH.work, part_of=budget) as own:
-        return not _decided(system, own, 0, 5).is_yes
-    return True
+        return _decided(system, own, 0, 5)
+    return Verdict.undecided("that a condition does not change on a piece was not proven in time")

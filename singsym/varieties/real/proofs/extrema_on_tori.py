@@ -15,7 +15,7 @@ from flint import fmpz_poly
 
 from singsym.effort import chance, patience
 from singsym.effort.attempts import attempt
-from singsym.effort.verdict import Certainty, note, unnoted
+from singsym.effort.verdict import Known
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.memo import remember
 from singsym.polynomials import Polynomial
@@ -28,27 +28,25 @@ MOST_TERMS, MOST_CIRCLES = 60, 8
 _TRIES = 100
 
 
-def extreme_zeros(f: Polynomial, circles: Sequence[Pair]) -> tuple[Polynomial, ...]:
+def extreme_zeros(f: Polynomial, circles: Sequence[Pair]) -> Known[tuple[Polynomial, ...]]:
     """What vanishes with f on the circles: its derivatives along them, where f has no two signs there.
 
     (1,) where f has no zero at all; () where nothing is known.
 
     >>> from singsym.polynomials import Ring
     >>> c, s, x, y = Ring(("c", "s", "x", "y")).gens
-    >>> extreme_zeros(c * x + s * y - 1, (("c", "s"), ("x", "y")))
+    >>> extreme_zeros(c * x + s * y - 1, (("c", "s"), ("x", "y"))).value
     (-s*x + c*y, s*x - c*y)
-    >>> extreme_zeros(c * x + s * y - 2, (("c", "s"), ("x", "y")))
+    >>> extreme_zeros(c * x + s * y - 2, (("c", "s"), ("x", "y"))).value
     (1,)
     """
     own = tuple(pair for pair in circles if {*pair} & {*f.variables})
     names = {name for pair in own for name in pair} | {constant.name for constant in f.ring.constants}
     if len(f) > MOST_TERMS or not 0 < len(own) <= MOST_CIRCLES or not {*f.variables} <= names:
-        return ()
+        return Known(())
     if _has_two_signs(f, own):
-        return ()
-    found, certainty = _extreme(f, own)
-    note(certainty)
-    return found
+        return Known(())
+    return remember("extreme values", (f, own), lambda: _searched(f, own))
 
 
 def _has_two_signs(f: Polynomial, circles: Sequence[Pair]) -> bool:
@@ -67,12 +65,8 @@ def _has_two_signs(f: Polynomial, circles: Sequence[Pair]) -> bool:
     return False
 
 
-def _extreme(f: Polynomial, circles: tuple[Pair, ...]) -> tuple[tuple[Polynomial, ...], Certainty]:
-    return remember("extreme values", (f, circles), lambda: _searched(f, circles))
-
-
-def _searched(f: Polynomial, circles: tuple[Pair, ...]) -> tuple[tuple[Polynomial, ...], Certainty]:
-    """The polynomials of `extreme_zeros`, and how they are known."""
+def _searched(f: Polynomial, circles: tuple[Pair, ...]) -> Known[tuple[Polynomial, ...]]:
+    """The polynomials of `extreme_zeros`."""
     ring = f.ring
     derivatives = [ring.gen(x) * f.derivative(y) - ring.gen(y) * f.derivative(x) for x, y in circles]
     fixed = [p for p in ring.relations if {*p.variables} & {*f.variables}]
@@ -80,16 +74,17 @@ def _searched(f: Polynomial, circles: tuple[Pair, ...]) -> tuple[tuple[Polynomia
     small = used_ring(ring, equations)
     ideal = Ideal(small, tuple(map(small.convert, equations)))
     values = None
-    with attempt("extreme values", patience.EXTREMA.work), unnoted():
-        values = relation(ideal.groebner_basis(), (small.convert(f),))
+    with attempt("extreme values", patience.EXTREMA.work):
+        basis = ideal.groebner_basis()
+        values = relation(basis.value, (small.convert(f),))
     if values is None:
-        return (), "proven"
+        return Known(())
     coefficients = [int(values.coefficient("t0", k).constant.p) for k in range(values.total_degree + 1)]
     first = next(k for k, c in enumerate(coefficients) if c)
     others = coefficients[first:]
     if _has_negative_root(others) and _has_negative_root([c * (-1) ** k for k, c in enumerate(others)]):
-        return (), "proven"
-    return tuple(dict.fromkeys(p for p in derivatives if p)) if first else (ring.one,), ideal.certainty
+        return Known(())
+    return Known(tuple(dict.fromkeys(filter(None, derivatives))) if first else (ring.one,), basis.certainty)
 
 
 def _has_negative_root(coefficients: Sequence[int]) -> bool:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from singsym.effort.verdict import Known, Premises
 from singsym.polynomials import Polynomial
 from singsym.polynomials.sums_of_squares import sum_of_squares
 from singsym.varieties.real.bounds_of_solutions import extreme_values, sign_within, solution_bounds
@@ -18,7 +19,7 @@ from singsym.varieties.unit_circles import unit_circles
 
 def real_consequences(
     system: RealSystem, equations: Sequence[Polynomial], others: Sequence[Polynomial] = ()
-) -> list[Polynomial] | None:
+) -> Known[list[Polynomial] | None]:
     """What sums of squares, or values at their bounds, force to vanish; `None` where that cannot be.
 
     others: further equations, used for bounds and for values at them; of the system only its inequalities
@@ -27,7 +28,7 @@ def real_consequences(
     >>> from singsym.polynomials import Ring
     >>> R = Ring(("c", "s", "x"))
     >>> c, s, x = R.gens
-    >>> real_consequences(RealSystem(R, ()), [c**2 + s**2 - 1, x**2 - 2 * s * x + 1])
+    >>> real_consequences(RealSystem(R, ()), [c**2 + s**2 - 1, x**2 - 2 * s * x + 1]).value
     [c, s - x]
     """
     forced: list[Polynomial] = []
@@ -37,22 +38,22 @@ def real_consequences(
             continue
         roots = squares[1]
         if any(r.is_constant for r in roots):
-            return None
+            return Known(None)
         if len(roots) > 1:
             forced.extend(roots)
     together = tuple(dict.fromkeys((*equations, *others)))
     bounds = solution_bounds(system.ring, together)
     if bounds is None or any(sign_within(f, bounds) for f in together):
-        return None
+        return Known(None)
     if any(sign_within(p, bounds) < 0 for p in (*system.positive, *system.nonnegative)):
-        return None
-    circles = tuple(unit_circles(together))
+        return Known(None)
+    circles, premises = tuple(unit_circles(together)), Premises()
     for f in together:
         forced += extreme_values(f, bounds)
-        forced += extreme_zeros(f, circles)
+        forced += premises.take(extreme_zeros(f, circles))
     if system.ring.one in forced:
-        return None
-    return [p for p in dict.fromkeys(forced) if p not in together]
+        return premises.conclude(None)
+    return premises.conclude([p for p in dict.fromkeys(forced) if p not in together])
 
 
 def _combinations(equations: Sequence[Polynomial]) -> Iterator[Polynomial]:

@@ -10,12 +10,12 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache, partial
+from functools import cached_property, lru_cache
 from math import hypot
 
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Undecided, current
-from singsym.effort.verdict import note, noted_if_true, unnoted, weakest
+from singsym.effort.verdict import Known, Premises, Verdict
 from singsym.elimination.elimination_orders import without_zeros_of
 from singsym.elimination.engines import EngineUnavailable
 from singsym.elimination.ideal import Ideal
@@ -32,6 +32,8 @@ LONGEST_SUM = 12
 CLOSED_POINTS = 20
 """So many numerical points are looked at for the exclusions that matter."""
 Group = tuple[Polynomial, ...]
+_NO_POINT = "there is no complex solution"
+_NOT_SEEN = Verdict.undecided("that there is no complex solution is not seen at once")
 
 
 @dataclass(frozen=True)
@@ -137,33 +139,41 @@ class Cartesian:
     def based(self, seconds: float) -> tuple[Ideal, ...]:
         """Those of the ideals whose Groebner bases are found in so many seconds."""
         found: list[Ideal] = []
-        with attempt("bases that hold polynomials", seconds), unnoted():
+        with attempt("bases that hold polynomials", seconds):
             for ideal in self._ideals:
                 ideal.groebner_basis()
                 found.append(ideal)
         return tuple(found)
 
-    def vanishes(self, polynomial: Polynomial, ideals: tuple[Ideal, ...]) -> bool:
-        """Whether a polynomial of the given variables is seen to be zero wherever the given system holds."""
+    def vanishes(self, polynomial: Polynomial, ideals: tuple[Ideal, ...]) -> Verdict:
+        """Whether a polynomial of the given variables is zero wherever the system holds: yes or undecided."""
         moved = self.moved(polynomial)
-        return any(noted_if_true(partial(_contains, ideal, moved)) for ideal in ideals)
+        for ideal in ideals:
+            inside = ideal.contains(Ideal(ideal.ring, map(ideal.ring.convert, moved)))
+            if inside.value:
+                return Verdict.yes(inside.certainty, reason="it is in the ideal")
+        return Verdict.undecided("it is in no ideal whose basis is known")
 
-    def is_empty(self, seconds: float | None = None) -> bool:
-        """Whether not even complex points are left; False where that is not seen at once.
+    def is_empty(self, seconds: float | None = None) -> Verdict:
+        """Whether not even complex points are left: yes, or undecided where that is not seen at once.
 
         A part may be excluded as a whole: all polynomials of an exclusion vanish on it.  Raises `Undecided`.
         seconds: so long a proof over Q is waited for; then what holds modulo a prime will do.
 
         >>> R = Ring(("x", "y"))
         >>> x, y = R.gens
-        >>> Cartesian.of(RealSystem(R, (x * y,), exclusions=((x, x * y), (y,)))).is_empty()
+        >>> Cartesian.of(RealSystem(R, (x * y,), exclusions=((x, x * y), (y,)))).is_empty().is_yes
         True
         """
-        return any(p.is_zero for p in self.system.nonzero) or any(
-            noted_if_true(partial(self._is_off, ideal, seconds)) for ideal in self._ideals
-        )
+        if any(p.is_zero for p in self.system.nonzero):
+            return Verdict.yes(reason="everything is excluded")
+        for ideal in self._ideals:
+            verdict = self._is_off(ideal, seconds)
+            if verdict.is_yes:
+                return verdict
+        return _NOT_SEEN
 
-    def _is_off(self, ideal: Ideal, seconds: float | None) -> bool:
+    def _is_off(self, ideal: Ideal, seconds: float | None) -> Verdict:
         """Whether an ideal has no zero, or none off some exclusion; first modulo a prime.
 
         Without a proof it takes several primes, modulo which it is so in one and the same way.
@@ -177,20 +187,19 @@ class Cartesian:
             seconds = None
         except Undecided:
             current().check(what)
-            return False
+            return _NOT_SEEN
         if suspected.is_nothing:
-            return False
+            return _NOT_SEEN
         with attempt(what, seconds):
-            return suspected.is_proven(ideal)
+            return suspected.over_rationals(ideal)
         if seconds is None:
-            return False
+            return _NOT_SEEN
         with attempt(what):
             for residue in primes:
                 suspected = suspected.modulo(residue)
             if not suspected.is_nothing:
-                note("modular")
-                return True
-        return False
+                return Verdict.yes("modular", reason=_NO_POINT)
+        return _NOT_SEEN
 
     @property
     def left_out(self) -> int:
@@ -248,9 +257,14 @@ class _Suspected:
         kept = self.excluded if residue.is_unit else tuple(filter(residue.contain, self.excluded))
         return _Suspected(self.unit and residue.is_unit, kept)
 
-    def is_proven(self, ideal: Ideal) -> bool:
-        """Whether one of them is so over Q."""
-        return (self.unit and ideal.is_unit()) or any(map(partial(_vanish_on, ideal), self.excluded))
+    def over_rationals(self, ideal: Ideal) -> Verdict:
+        """Whether one of them is so over Q: yes, or undecided."""
+        if self.unit and (unit := ideal.is_unit()).value:
+            return Verdict.yes(unit.certainty, reason=_NO_POINT)
+        for group in self.excluded:
+            if (vanish := _vanish_on(ideal, group)).value:
+                return Verdict.yes(vanish.certainty, reason=_NO_POINT)
+        return _NOT_SEEN
 
 
 def _without_squares(p: Polynomial, private: set[str]) -> Polynomial | None:
@@ -267,23 +281,21 @@ def _nonconstant(polynomials: Group) -> Group:
     return tuple(p for p in dict.fromkeys(polynomials) if not p.is_constant)
 
 
-def _contains(ideal: Ideal, polynomials: Group) -> bool:
-    return all(ideal.contains(ideal.ring.convert(p)) for p in polynomials)
-
-
-def _vanish_on(ideal: Ideal, polynomials: Group) -> bool:
+def _vanish_on(ideal: Ideal, polynomials: Group) -> Known[bool]:
     """Whether polynomials vanish on all zeros: members of the ideal, or 1 = t p without a solution.
 
     Half of the time is for the first way, which takes one Groebner basis over Q for all.
     """
-    known = False
-    with attempt("a proof that polynomials vanish", share=0.5), unnoted() as seen:
-        ideal.groebner_basis()
-        known = weakest(*seen) == "proven"
-    return all(
-        (known and ideal.contains(p)) or Ideal(*without_zeros_of(ideal.ring, ideal.generators, p)).is_unit()
-        for p in polynomials
-    )
+    known, premises = False, Premises()
+    with attempt("a proof that polynomials vanish", share=0.5):
+        known = ideal.groebner_basis().is_proven
+    for p in polynomials:
+        if known and ideal.contains(p).value:
+            continue
+        off = Ideal(*without_zeros_of(ideal.ring, ideal.generators, p))
+        if not premises.take(off.is_unit()):
+            return premises.conclude(False)
+    return premises.conclude(True)
 
 
 def _size(equations: Group) -> int:

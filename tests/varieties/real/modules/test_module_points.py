@@ -24,15 +24,15 @@ LINKAGE = (
 def test_the_same_as_exact_algebra() -> None:
     """Where crank and coupler are in line; once by modules, once by one Groebner basis of all."""
     system = (*LINKAGE, C * V - S * U)
-    found = sorted(p.floats for p in module_points(system))
-    exact = sorted(p.floats for p in real_points(system))
+    found = sorted(p.floats for p in module_points(system).value)
+    exact = sorted(p.floats for p in real_points(system).value)
     assert len(found) == len(exact) > 0
     assert all(a == pytest.approx(b, abs=1e-9) for a, b in zip(found, exact, strict=True))
 
 
 def test_an_equation_more_is_looked_at_in_each_point() -> None:
     """Where crank and coupler are in line, no crank is upright as well."""
-    assert module_points((*LINKAGE, C * V - S * U, C)) == ()
+    assert module_points((*LINKAGE, C * V - S * U, C)).value == ()
 
 
 def test_points_with_a_multiplicity_are_not_decided() -> None:

@@ -75,6 +75,6 @@ def test_a_witness_can_be_pickled():
 def test_a_singular_point_is_not_called_smooth():
     from singsym.varieties.real.points.finite_sets import real_points
 
-    (node,) = real_points([x, y, z])
+    (node,) = real_points([x, y, z]).value
     axes = PurePiece.of(Component(Ideal(R, (x * y, z)), prime=False, dimension=1))
     assert local_dimension(node, axes) is None

@@ -16,7 +16,7 @@ x, y = R.gens
 def points(minimal: Sequence[int], x_of_t: Sequence[int], y_of_t: Sequence[int]) -> Parametrization:
     """The points (x(t), y(t)) at the roots of a polynomial, constant coefficients first."""
     coordinates = (fmpz_poly(list(x_of_t)), fmpz_poly(list(y_of_t)))
-    return Parametrization(R, fmpz_poly(list(minimal)), fmpz_poly([1]), coordinates, "modular")
+    return Parametrization(R, fmpz_poly(list(minimal)), fmpz_poly([1]), coordinates)
 
 
 ROOTS_OF_2 = points((-2, 0, 1), (0,), (0, 1))

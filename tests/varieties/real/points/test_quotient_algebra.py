@@ -23,7 +23,7 @@ x, y = R.gens
 
 
 def algebra(*equations: Polynomial) -> Algebra:
-    return quotient_algebra(R, Ideal(R, equations).groebner_basis())
+    return quotient_algebra(R, Ideal(R, equations).groebner_basis().value)
 
 
 def value(polynomial: Polynomial, matrices: Sequence[fmpq_mat]) -> fmpq_mat:

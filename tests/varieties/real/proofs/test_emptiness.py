@@ -85,19 +85,19 @@ DIMENSIONS = {
 
 @pytest.mark.parametrize(("system", "dimension"), DIMENSIONS.values(), ids=list(DIMENSIONS))
 def test_dimensions(system, dimension):
-    found, witness = real_dimension(system, Budget(60))
+    found, witness = real_dimension(system, Budget(60)).value
     assert found == dimension
     assert (witness is None) == (dimension < 0)
 
 
 @pytest.mark.slow
 def test_the_stick_of_the_whitney_umbrella():
-    assert real_dimension(RealSystem(R, (x**2 - y**2 * z,), positive=(-z,)), Budget(120))[0] == 1
+    assert real_dimension(RealSystem(R, (x**2 - y**2 * z,), positive=(-z,)), Budget(120)).value[0] == 1
 
 
 def test_every_circle_has_a_sample():
     circles = [(x - 4 * k) ** 2 + y**2 - 1 for k in range(3)]
-    points = sample_points(R, [circles[0] * circles[1] * circles[2], z])
+    points = sample_points(R, [circles[0] * circles[1] * circles[2], z]).value
     for f in circles:
         assert any(p.sign(f) == 0 for p in points)
 
@@ -113,7 +113,7 @@ def test_a_joint_out_of_reach(linkage):
 @pytest.mark.parametrize("triple", ["BCD", "CGF", "ABC", "CDG", "EFG"])
 def test_samples_on_the_curves_of_the_linkage(linkage, triple):
     equations = [*linkage.loops, linkage.determinant(triple)]
-    points = sample_points(linkage.ring, equations, Budget(120))
+    points = sample_points(linkage.ring, equations, Budget(120)).value
     assert points
     assert all(p.sign(f) == 0 for p in points for f in equations)
 

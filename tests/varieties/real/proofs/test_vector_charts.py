@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from singsym.effort.budget import Budget
 from singsym.effort.chaos import chaos
-from singsym.effort.verdict import certainties
+from singsym.effort.verdict import Answer
 from singsym.elimination import engines
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.real.proofs.emptiness import is_empty_over_reals
@@ -52,7 +52,7 @@ def test_an_exclusion_that_knows_the_sign_is_not_the_same_for_both() -> None:
 def test_the_trimmed_system_has_a_point_if_the_given_one_has(height: int, empty: bool) -> None:
     """w = height / 2 on the unit sphere without its poles: no point for height 2, a circle for 1."""
     chart = Cartesian.of(RealSystem(R, (*LEG, 2 * w - height), exclusions=((q,),)))
-    assert chart.is_empty() == empty
+    assert chart.is_empty().is_yes == empty
     assert is_empty_over_reals(chart.trimmed).is_yes == empty
 
 
@@ -91,9 +91,8 @@ def test_a_solution_that_a_prime_does_not_see() -> None:
     system = katsura_and_one_more(2**31 - 1)
     point = [fmpq(1), *[fmpq(0)] * 7, fmpq(1, 2**31 - 1)]
     assert not any(e.evaluate(point) for e in system.equations)
-    with Budget(60), certainties() as seen:
-        assert not Cartesian.of(system).is_empty(0.2)
-    assert "modular" not in seen
+    with Budget(60):
+        assert not Cartesian.of(system).is_empty(0.2).is_yes
 
 
 @pytest.mark.engines
@@ -101,12 +100,9 @@ def test_a_solution_that_a_prime_does_not_see() -> None:
 def test_without_time_for_a_proof_several_primes_say_it_or_nobody() -> None:
     """c^2 s is 2 and 3 at once nowhere."""
     system = RealSystem(R, (c**2 * s - 2, c**2 * s - 3))
-    with certainties() as seen:
-        assert Cartesian.of(system).is_empty(0.0)
-    assert seen == ["modular"]
-    with certainties() as seen, chaos(1, 1.0):
-        assert not Cartesian.of(system).is_empty(0.0)
-    assert seen == []
-    with certainties() as seen:
-        assert Cartesian.of(system).is_empty()
-    assert seen == ["proven"]
+    quick = Cartesian.of(system).is_empty(0.0)
+    assert (quick.answer, quick.certainty) == (Answer.YES, "modular")
+    with chaos(1, 1.0):
+        assert Cartesian.of(system).is_empty(0.0).is_undecided
+    patient = Cartesian.of(system).is_empty()
+    assert (patient.answer, patient.certainty) == (Answer.YES, "proven")
