@@ -19,9 +19,8 @@ from singsym.effort.budget import current
 from singsym.elimination.linear_substitution import substitute_solved
 from singsym.polynomials import Polynomial, Ring
 from singsym.polynomials.ranges import fraction, root_above
-from singsym.polynomials.remainders import division
+from singsym.polynomials.unit_circles import unit_circles
 from singsym.varieties.splitting import factor_equations, irreducible_factors, linear_substitution
-from singsym.varieties.unit_circles import unit_circles
 
 MOST_PATCHES = 64
 LONGEST = 60
@@ -45,7 +44,7 @@ class Patch:
     def restrict(self, polynomial: Polynomial) -> Polynomial:
         """The polynomial with the solved variables put in."""
         present = {n: v for n, v in self.solved.items() if n in polynomial.variables}
-        return _reduced(polynomial.substitute(present)) if present else polynomial
+        return self.ring.reduced(polynomial.substitute(present)) if present else polynomial
 
 
 def unsplit(equations: Sequence[Polynomial], ring: Ring) -> Patch:
@@ -61,7 +60,7 @@ def unsplit(equations: Sequence[Polynomial], ring: Ring) -> Patch:
     solved: dict[str, Polynomial] = {}
     for name, value, _ in made:
         solved = {n: v.substitute({name: value}) for n, v in solved.items()} | {name: value}
-    return Patch(ring, {n: _reduced(v) for n, v in solved.items()}, _all_reduced(rest))
+    return Patch(ring, {n: ring.reduced(v) for n, v in solved.items()}, _all_reduced(rest))
 
 
 def patches(
@@ -108,7 +107,7 @@ def patches(
             found[frozenset(patch.generators)] = patch
             continue
         put = {step.name: step.value}
-        known = {n: _reduced(v.substitute(put)) for n, v in solved.items()} | {step.name: step.value}
+        known = {n: ring.reduced(v.substitute(put)) for n, v in solved.items()} | {step.name: step.value}
         waiting.append((_all_reduced(p.substitute(put) for p in single), known))
     left = [Patch(ring, solved, equations) for equations, solved in waiting]
     return tuple(sorted((*found.values(), *left), key=lambda p: str(p.generators)))
@@ -214,7 +213,7 @@ def _halves(
         return None
     if (c, d) not in ((-b, a), (b, -a)):
         return None
-    length = _root(_reduced(a * a + b * b))
+    length = _root(ring.reduced(a * a + b * b))
     if length is None:
         return None
     return [(x2 * length - across, y2 * length + along), (x2 * length + across, y2 * length - along)]
@@ -224,15 +223,9 @@ def _names(vector: tuple[Polynomial, Polynomial]) -> tuple[str, ...]:
     return tuple(name for part in vector for name in part.variables)
 
 
-def _reduced(p: Polynomial) -> Polynomial:
-    """The remainder on division by the minimal polynomials of the ring's constants."""
-    names = (constant.name for constant in p.ring.constants)
-    return division(tuple(zip(p.ring.relations, names, strict=True))).remainder(p)
-
-
 def _all_reduced(equations: Iterable[Polynomial]) -> tuple[Polynomial, ...]:
-    """The same for equations, but not for those minimal polynomials among them."""
-    return tuple(q for p in equations if (q := p if p in p.ring.relations else _reduced(p)))
+    """Equations of low degree in the ring's constants; the minimal polynomials of these stay as they are."""
+    return tuple(q for p in equations if (q := p if p in p.ring.relations else p.ring.reduced(p)))
 
 
 def _root(square: Polynomial) -> Fraction | None:

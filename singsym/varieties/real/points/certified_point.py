@@ -22,11 +22,11 @@ from singsym.effort.chaos import strikes
 from singsym.effort.verdict import Certainty
 from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.polynomials import Polynomial, Ring
+from singsym.polynomials.unit_circles import half_angle_point, unit_circles
 from singsym.varieties.real.points.boxed_point import BoxPoint, boxed_point
 from singsym.varieties.real.points.exact_point import RealPoint
 from singsym.varieties.real.points.finite_sets import pinned, real_points
 from singsym.varieties.real.system import RealSystem
-from singsym.varieties.unit_circles import unit_circles
 
 if TYPE_CHECKING:
     from singsym.polynomials.compiled_map import Floats
@@ -227,7 +227,8 @@ def _on_circle(c: float, s: float, denominator: int) -> tuple[Fraction, Fraction
     # the angle from the nearer end of the diameter
     end = 1 if c >= 0 else -1
     t = _rounded(s / (1 + abs(c)), denominator)
-    return end * (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)
+    cosine, sine = half_angle_point(t)
+    return end * cosine, sine
 
 
 # -- certificates ------------------------------------------------------------------------------------
