@@ -16,6 +16,7 @@ from singsym.effort.patience import SPLITTING
 from singsym.effort.progress import Sink, report, to
 from singsym.elimination import engines
 from singsym.elimination.ideal import Ideal
+from singsym.elimination.linear_substitution import shortest_substitution
 from singsym.elimination.memo import remember
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.irreducibility import Splitting, analyse, independent_variables, leading_exponents
@@ -23,7 +24,6 @@ from singsym.varieties.splitting import (
     factor_equations,
     irreducible_factors,
     levels,
-    linear_substitution,
     used_ring,
 )
 
@@ -144,7 +144,7 @@ def _branch(ring: Ring, equations: tuple[Polynomial, ...], nonzero: frozenset[Po
             found += _branch(ring, (*rest, f), nonzero | frozenset(chosen[:i]))
         return found
     single = tuple(f[0] for f in factored)
-    substitution = linear_substitution(single)
+    substitution = shortest_substitution(single)
     if substitution is None:
         return _by_levels(used_ring(ring, single), single, nonzero)
     smaller = ring.with_names(n for n in ring.names if n != substitution.name)
@@ -240,7 +240,7 @@ def _refined(system: _System) -> tuple[Component, ...]:
     single = tuple(_product(f, system.ring) for f in factored)
     unchanged = {p.primitive() for p in system.equations if p} <= set(single)
     system = system.replaced(single, same_ideal=unchanged)
-    substitution = linear_substitution(single)
+    substitution = shortest_substitution(single)
     if substitution is None:
         return _by_basis(system)
     smaller = system.ring.with_names(n for n in system.ring.names if n != substitution.name)
@@ -277,7 +277,7 @@ def _by_basis(system: _System) -> tuple[Component, ...]:
     single = {f[0] for f in factored}
     if not single.issuperset(basis):
         return _refine(system.replaced((*basis, *single), same_ideal=False))
-    if linear_substitution(basis) is not None:
+    if shortest_substitution(basis) is not None:
         return _refine(system)
     return _by_eliminant(system, Ideal(system.ring, basis, ideal.certainty), dimension)
 

@@ -19,6 +19,7 @@ from singsym.effort.verdict import note, noted_if_true, unnoted, weakest
 from singsym.elimination.elimination_orders import without_zeros_of
 from singsym.elimination.engines import EngineUnavailable
 from singsym.elimination.ideal import Ideal
+from singsym.elimination.linear_substitution import shortest_substitution
 from singsym.elimination.modulo_primes import Residues, residues
 from singsym.polynomials import Polynomial, Ring
 from singsym.polynomials.remainders import remainder
@@ -26,7 +27,7 @@ from singsym.polynomials.short_forms import short_forms
 from singsym.polynomials.unit_circles import Pair, circle, unit_circles
 from singsym.varieties.real.numerical.sampling import is_off, numerical_points
 from singsym.varieties.real.system import RealSystem
-from singsym.varieties.splitting import linear_substitution, used_ring
+from singsym.varieties.splitting import used_ring
 
 LONGEST_SUM = 12
 """Sums of squares with more terms are not used as exclusions."""
@@ -328,7 +329,7 @@ class _Vector:
 
     @classmethod
     def of(cls, pair: Pair, length: Polynomial, system: RealSystem) -> _Vector | None:
-        if set(pair) & set(length.variables) or (solved := linear_substitution((length,))) is None:
+        if set(pair) & set(length.variables) or (solved := shortest_substitution((length,))) is None:
             return None
         lead = length.coefficient(solved.name, 1).constant
         vector = cls(pair, solved.name, solved.value + length.ring.gen(solved.name) / lead)
