@@ -20,6 +20,9 @@ from singsym.polynomials.sizes import largest_term, variable_sizes
 
 Floats = NDArray[np.float64]
 
+_DENSE = 50
+"""With no more entries than so many times the terms, a full matrix is quicker than sums (measured)."""
+
 
 class MonomialTable:
     """Monomials in an order in which each is the product of an earlier one and a variable; the first is 1.
@@ -64,7 +67,7 @@ class MonomialTable:
 
 
 class CompiledMap:
-    """Polynomials of one ring as a map in doubles; points are arrays (..., variables), also a single one.
+    """Polynomials of one ring as a map in doubles, at one point (variables,) or at many (B, variables).
 
     sizes: how large the variables are, by default by `variable_sizes`.
     scales: what the polynomials are divided by, one for each, by default 1.
@@ -116,55 +119,76 @@ class CompiledMap:
         return _Combinations(self._rows, self.size)
 
     @cached_property
-    def _values_and_slopes(self) -> _Combinations:
-        slopes = [
-            {_divided(m, i): m[i] * c for m, c in row.items() if m[i]}
-            for row in self._rows
-            for i in range(self.size)
+    def _slope_rows(self) -> list[dict[Exponents, float]]:
+        """The coefficients of the derivatives, polynomial by polynomial."""
+        places = range(self.size)
+        return [
+            {_divided(m, i): m[i] * c for m, c in row.items() if m[i]} for row in self._rows for i in places
         ]
-        return _Combinations([*self._rows, *slopes], self.size)
+
+    @cached_property
+    def _slopes(self) -> _Combinations:
+        return _Combinations(self._slope_rows, self.size)
+
+    @cached_property
+    def _values_and_slopes(self) -> _Combinations:
+        return _Combinations([*self._rows, *self._slope_rows], self.size)
 
     def __call__(self, points: Floats) -> tuple[Floats, Floats]:
-        """Values (..., polynomials) and Jacobian matrices (..., polynomials, variables)."""
+        """Values, (polynomials,) or (B, polynomials), and Jacobians, with a last axis of variables."""
         found = self._values_and_slopes.at(points)
-        slopes = found[..., self.count :].reshape(*found.shape[:-1], self.count, self.size)
-        return found[..., : self.count], slopes
+        return found[..., : self.count], self._as_matrices(found[..., self.count :])
 
     def values(self, points: Floats) -> Floats:
-        """The values alone, (..., polynomials)."""
+        """The values alone."""
         return self._values.at(points)
 
     def jacobian(self, points: Floats) -> Floats:
-        """The derivatives, (..., polynomials, variables)."""
-        return self(points)[1]
+        """The Jacobian matrices alone."""
+        return self._as_matrices(self._slopes.at(points))
+
+    def _as_matrices(self, slopes: Floats) -> Floats:
+        return slopes.reshape(*slopes.shape[:-1], self.count, self.size)
 
     def magnitudes(self, points: Floats, sizes: Floats) -> Floats:
         """Sums of the absolute values of all terms, where no variable is taken for smaller than its size."""
-        return self._values.at(np.maximum(np.abs(points), sizes), absolute=True)
+        return self._values.absolute(np.maximum(np.abs(points), sizes))
 
 
 class _Combinations:
-    """Linear combinations of monomials, all of one table."""
+    """Linear combinations of monomials of one table, by a full matrix where that is not much too large."""
 
     def __init__(self, rows: Sequence[Mapping[Exponents, float]], variables: int) -> None:
         self.count = len(rows)
         self._table = MonomialTable((m for row in rows for m in row), variables)
         self._places = np.array([self._table.index[m] for row in rows for m in row], dtype=np.intp)
         self._factors: Floats = np.array([c for row in rows for c in row.values()], dtype=np.float64)
+        lengths = [len(row) for row in rows]
         # combinations that have terms, and where these begin
-        self._filled = np.array([k for k, row in enumerate(rows) if row], dtype=np.intp)
-        self._starts = np.cumsum([0, *(len(row) for row in rows if row)], dtype=np.intp)[:-1]
+        self._filled = np.flatnonzero(lengths)
+        self._starts = np.cumsum([0, *lengths], dtype=np.intp)[self._filled]
+        self._matrix: Floats | None = None
+        if self.count * len(self._table) <= _DENSE * len(self._places):
+            self._matrix = np.zeros((self.count, len(self._table)))
+            self._matrix[np.repeat(np.arange(self.count), lengths), self._places] = self._factors
 
-    def at(self, points: Floats, absolute: bool = False) -> Floats:
-        """Their values at points, (..., combinations); absolute: with the absolute values of coefficients."""
-        coordinates = np.moveaxis(points, -1, 0)
-        found = np.zeros((self.count, *coordinates.shape[1:]))
+    def at(self, points: Floats) -> Floats:
+        """Their values at points."""
+        return self._of(self._table.at(points.T), self._matrix, self._factors)
+
+    def absolute(self, points: Floats) -> Floats:
+        """The same with the absolute values of the coefficients."""
+        matrix = None if self._matrix is None else np.abs(self._matrix)
+        return self._of(self._table.at(points.T), matrix, np.abs(self._factors))
+
+    def _of(self, monomials: Floats, matrix: Floats | None, factors: Floats) -> Floats:
+        if matrix is not None:
+            return np.ascontiguousarray((matrix @ monomials).T)
+        found = np.zeros((*monomials.shape[1:], self.count))
         if self._places.size:
-            factors = np.abs(self._factors) if absolute else self._factors
-            terms = self._table.at(coordinates)[self._places]
-            terms *= factors.reshape(-1, *(1,) * (coordinates.ndim - 1))
-            found[self._filled] = np.add.reduceat(terms, self._starts, axis=0)
-        return np.ascontiguousarray(np.moveaxis(found, 0, -1))
+            terms = np.ascontiguousarray(monomials.T)[..., self._places] * factors
+            found[..., self._filled] = np.add.reduceat(terms, self._starts, axis=-1)
+        return found
 
 
 def numerical_matrix(matrix: PolynomialMatrix, point: Floats) -> Floats:

@@ -137,7 +137,7 @@ def larger_parts(system: RealSystem, dimension: int) -> Iterator[tuple[int, Witn
     tried: set[tuple[Polynomial, ...]] = set()
     for point in numerical_points(system, POINTS):
         current().check("parts of a larger dimension")
-        _, slopes = compiled(np.array(point))
+        slopes = compiled.jacobian(np.array(point))
         rank = numerical_rank(slopes, 1e-7).rank
         if len(ring.names) - rank <= dimension:
             continue

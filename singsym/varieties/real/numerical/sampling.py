@@ -93,8 +93,7 @@ def numerical_codimension(system: RealSystem) -> tuple[int, Point] | None:
     compiled = CompiledMap.balanced(equations, system.ring)
     best: tuple[int, Point] | None = None
     for point in islice(_numerical_points(system), MOST_POINTS):
-        _, slope = compiled(numpy.array(point))
-        rank = numerical_rank(slope * compiled.sizes, 1e-7).rank
+        rank = numerical_rank(compiled.jacobian(numpy.array(point)) * compiled.sizes, 1e-7).rank
         if best is None or rank > best[0]:
             best = rank, point
         if rank == len(equations):

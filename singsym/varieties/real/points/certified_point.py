@@ -180,8 +180,7 @@ def frozen_values(
 
     ring = system.ring
     compiled = CompiledMap.balanced(equations, ring)
-    _, slope = compiled(sample)
-    slope = slope * compiled.sizes
+    slope = compiled.jacobian(sample) * compiled.sizes
     rank = numerical_rank(slope, 1e-7).rank if dimension is None else len(ring.names) - dimension
     dependent = dependent_columns(slope, rank, [ring.index(c.name) for c in ring.constants])
     free = [k for k in range(len(ring.names)) if k not in dependent]
