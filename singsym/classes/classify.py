@@ -47,9 +47,9 @@ from singsym.elimination import engines
 from singsym.kinematics.reduction import reduce
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import Mechanism
+from singsym.polynomials.unit_circles import Pair, unit_circles
 from singsym.varieties.real.dimension.extent import union
 from singsym.varieties.real.system import RealSystem
-from singsym.varieties.unit_circles import Pair, unit_circles
 
 SHARES = (0.5, 0.8, 1.0)
 """So much of all time is used up when the search, what is real of the strata, and everything ends."""

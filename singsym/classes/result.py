@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from html import escape
-from typing import Any
 
 from singsym.classes.taxonomy.types import Defects, SingularityClass, SingularityType
 from singsym.effort.verdict import Verdict
@@ -32,10 +31,6 @@ class Configuration:
     points: Mapping[str, str]
     joints: Mapping[str, str]
     radius: str
-
-    def as_json(self) -> dict[str, str]:
-        """One flat object name -> decimal string, with `radius`."""
-        return {**self.coordinates, **self.points, **self.joints, "radius": self.radius}
 
     def floats(self) -> dict[str, float]:
         """The configuration variables as floats, for drawing."""
@@ -172,7 +167,7 @@ class SpacePiece:
 
 @dataclass(frozen=True)
 class Classification:
-    """Everything found out about a mechanism's singularities; see `as_json` for the fields in plain data.
+    """Everything found out about a mechanism's singularities; `output.plain_data` gives it as plain data.
 
     mechanism: None where a velocity equation was given by itself; seed: of all random choices; remarks: what
     is to be said of the conditions as a whole.
@@ -240,64 +235,6 @@ class Classification:
         questions = gathered(self.open_questions())
         open_ones = _html_table(("open", "why"), questions) if questions else ""
         return _html_table(headers, rows) + open_ones + "".join(f"<p>{escape(n)}</p>" for n in self.notes())
-
-    def as_json(self) -> dict[str, Any]:
-        """The fields that `singsym classify --format json` prints."""
-        return {
-            "mechanism": self.mechanism.name if self.mechanism else "",
-            "N": self.equation.N,
-            "n": self.equation.n,
-            "parameters": list(self.equation.space.parameters),
-            "configuration_space": [
-                {
-                    **piece.extent.as_json(),
-                    "smooth": piece.smooth,
-                    "delta": piece.defects.delta,
-                    "types": piece.defects.types.names,
-                    "certainty": piece.verdict.certainty,
-                    "remark": piece.remark,
-                }
-                for piece in self.configuration_space
-            ],
-            "loci": [
-                {
-                    "number": number,
-                    "condition": locus.condition,
-                    "factor": str(locus.factor),
-                    "latex": locus.latex,
-                    "words": locus.words,
-                    **locus.extent.as_json(),
-                    "components": locus.components,
-                    "points": locus.points,
-                    "verdict": str(locus.verdict.answer),
-                    "reason": locus.verdict.reason or locus.open or locus.remark,
-                }
-                for number, locus in enumerate(self.loci, 1)
-            ],
-            "classes": [
-                {
-                    "number": result.singularity_class.number,
-                    "types": result.types.names,
-                    "verdict": str(result.verdict.answer),
-                    "certainty": str(result.verdict.certainty),
-                    **result.extent.as_json(),
-                    "dimension": result.dimension,
-                    "points": result.points,
-                    "components": result.components,
-                    "witnesses": [w.as_json() for w in result.witnesses],
-                    "conditions": result.conditions,
-                    "unsure": [conditions_latex([piece]) for piece in result.unsure],
-                    "steps": list(result.steps),
-                    "reason": result.verdict.reason or result.open or result.remark,
-                }
-                for result in self.classes
-            ],
-            "open": [{"what": what, "reason": reason} for what, reason in self.open_questions()],
-            "remarks": list(self.notes()),
-            "engines": list(self.engines),
-            "seed": self.seed,
-            "seconds": round(self.seconds, 3),
-        }
 
 
 def _open(what: str, found: Locus | ClassResult) -> Iterator[tuple[str, str]]:

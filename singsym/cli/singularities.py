@@ -85,7 +85,9 @@ def run_classify(chosen: argparse.Namespace) -> int:
     """`singsym classify MECHANISM`."""
     result = classified(chosen)
     if chosen.format == "json":
-        emit_data(result.as_json())
+        from singsym.output.plain_data import classification_data
+
+        emit_data(classification_data(result))
     elif chosen.format == "latex":
         from singsym.output.latex import classification_latex, document
 

@@ -5,35 +5,65 @@ Source: the isomorphism Q[x, y]/(c x + h(y), I) = Q[y]/I(-h/c, y).
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
+from dataclasses import dataclass
 
 from singsym.polynomials import Polynomial
 
 _GROWTH = 4
 _ALLOWANCE = 200
 
-Substitution = tuple[str, Polynomial, Polynomial]
+
+@dataclass(frozen=True)
+class Substitution:
+    """A variable that an equation gives as a polynomial in the others."""
+
+    name: str
+    value: Polynomial
+
+    @property
+    def equation(self) -> Polynomial:
+        """The polynomial that vanishes where the variable has this value, primitive."""
+        return (self.value.ring.gen(self.name) - self.value).primitive()
+
+    def apply(self, polynomials: Iterable[Polynomial]) -> tuple[Polynomial, ...]:
+        """Polynomials with the value put in."""
+        put = {self.name: self.value}
+        return tuple(p.substitute(put) if p.degree(self.name) > 0 else p for p in polynomials)
 
 
-def solved_variable(
-    polynomial: Polynomial, names: Collection[str] | None = None
-) -> tuple[str, Polynomial] | None:
-    """A variable that occurs once, alone and to the first power, and the polynomial that it equals.
+def solved_variable(polynomial: Polynomial, names: Collection[str] | None = None) -> Substitution | None:
+    """The first variable (among `names`) that occurs once, alone and to the first power, with its value.
 
     >>> from singsym.polynomials import Ring
     >>> x, y = Ring(("x", "y")).gens
     >>> solved_variable(2 * x - y**2)
-    ('x', 1/2*y^2)
+    Substitution(name='x', value=1/2*y^2)
     """
-    ring, degrees = polynomial.ring, polynomial.degrees
-    terms = polynomial.terms()
-    for exponents, c in terms:
-        if sum(exponents) != 1:
-            continue
-        i = exponents.index(1)
-        alone = degrees[i] == 1 and sum(1 for m, _ in terms if m[i]) == 1
-        if alone and (names is None or ring.names[i] in names):
-            return ring.names[i], ring.gens[i] - polynomial / c
+    if 1 not in polynomial.degrees:
+        return None
+    ring, terms = polynomial.ring, polynomial.terms()
+    for i, (name, degree) in enumerate(zip(ring.names, polynomial.degrees, strict=True)):
+        if degree == 1 and (names is None or name in names):
+            holding = [(m, c) for m, c in terms if m[i]]
+            if len(holding) == 1 and sum(holding[0][0]) == 1:
+                return Substitution(name, ring.gens[i] - polynomial / holding[0][1])
+    return None
+
+
+def shortest_substitution(equations: Sequence[Polynomial]) -> Substitution | None:
+    """What the simplest equation that gives a variable says of it; the ring's constants are none.
+
+    >>> from singsym.polynomials import Ring
+    >>> x, y = Ring(("x", "y")).gens
+    >>> shortest_substitution([x * y + y**3 - x, x**2 + 2 * y - 1]).value
+    -1/2*x^2 + 1/2
+    """
+    for p in sorted(equations, key=lambda p: (p.total_degree, len(p))):
+        constants = {constant.name for constant in p.ring.constants}
+        found = solved_variable(p, [name for name in p.ring.names if name not in constants])
+        if found is not None:
+            return found
     return None
 
 
@@ -42,34 +72,23 @@ def substitute_solved(
 ) -> tuple[list[Polynomial], list[Substitution]]:
     """The polynomials without the variables (among `names`) that some of them give, and what was replaced.
 
-    Each substitution is (name, value, polynomial it came from).  With `bounded`, one that would make the
-    system much longer is not made.
+    With `bounded`, a substitution that would make the system much longer is not made.
     """
     rest = [p for p in polynomials if p]
     made: list[Substitution] = []
-    refused: set[tuple[str, Polynomial]] = set()
+    refused: set[Substitution] = set()
     while True:
         candidates = [(len(p), k, found) for k, p in enumerate(rest) if (found := solved_variable(p, names))]
         candidates = [c for c in candidates if c[2] not in refused]
         if not candidates:
             return rest, made
-        _, k, (name, value) = min(candidates, key=lambda c: c[:2])
-        source = rest[k]
-        changed = _replaced(rest[:k] + rest[k + 1 :], name, value)
+        _, k, found = min(candidates, key=lambda c: c[:2])
+        changed = list(dict.fromkeys(p.primitive() for p in found.apply(rest[:k] + rest[k + 1 :]) if p))
         if bounded and sum(map(len, changed)) > _GROWTH * sum(map(len, rest)) + _ALLOWANCE:
-            refused.add((name, value))
+            refused.add(found)
             continue
         rest = changed
-        made.append((name, value, source))
-
-
-def _replaced(polynomials: Sequence[Polynomial], name: str, value: Polynomial) -> list[Polynomial]:
-    found: dict[Polynomial, None] = {}
-    for p in polynomials:
-        image = p.substitute({name: value}) if p.degree(name) > 0 else p
-        if image:
-            found[image.primitive()] = None
-    return list(found)
+        made.append(found)
 
 
 def connected(polynomials: Sequence[Polynomial]) -> list[list[Polynomial]]:

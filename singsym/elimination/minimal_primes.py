@@ -27,7 +27,7 @@ def minimal_primes(ring: Ring, generators: Generators, budget: Budget) -> Known[
 
 def _minimal_primes(ring: Ring, generators: Generators, budget: Budget) -> Known[tuple[Generators, ...]]:
     rest, made = substitute_solved(generators)
-    solved = tuple(source for _, _, source in made)
+    solved = tuple(substitution.equation for substitution in made)
     if not rest:
         return Known((solved,))
     if len(rest) == 1:

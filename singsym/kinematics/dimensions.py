@@ -129,23 +129,11 @@ class Dimensions:
         Raises `ValueError` for floats, unknown symbols, and numbers not announced to `of`.
         """
         expression = sympy.sympify(expression, strict=True).xreplace(dict(self.values))
-        return self.normal(self._convert(ring, expression, symbols or {}))
+        return ring.reduced(self._convert(ring, expression, symbols or {}))
 
     def vector(self, ring: Ring, expressions: Iterable[Any]) -> tuple[Polynomial, ...]:
         """Several expressions at once."""
         return tuple(self.polynomial(ring, e) for e in expressions)
-
-    def normal(self, polynomial: Polynomial) -> Polynomial:
-        """Reduced modulo the minimal polynomials of the constants (sqrt(3)^2 becomes 3)."""
-        if not self.constants:
-            return polynomial
-        ring = polynomial.ring
-        value = polynomial.value
-        for constant, relation in zip(ring.constants, ring.relations, strict=True):
-            if polynomial.degree(constant.name) >= len(constant.minimal) - 1:
-                value = divmod(value, relation.value)[1]
-                polynomial = Polynomial(ring, value)
-        return polynomial
 
     def _convert(self, ring: Ring, e: Any, symbols: Mapping[str, Polynomial]) -> Polynomial:
         if e.is_Rational:
@@ -161,11 +149,11 @@ class Dimensions:
         if e.is_Mul:
             product = ring.one
             for a in e.args:
-                product = self.normal(product * self._convert(ring, a, symbols))
+                product = ring.reduced(product * self._convert(ring, a, symbols))
             return product
         if e.is_Pow and e.exp.is_Integer and e.exp > 0:
             power = self._convert(ring, e.base, symbols) ** int(e.exp)
-            return self.normal(power)
+            return ring.reduced(power)
         return self._atom(ring, e, symbols)
 
     def _atom(self, ring: Ring, e: Any, symbols: Mapping[str, Polynomial]) -> Polynomial:
@@ -175,7 +163,7 @@ class Dimensions:
             if e.is_Pow and e.exp.is_Rational and e.exp > 1:
                 whole = int(e.exp)
                 rest = self._convert(ring, e.base ** (e.exp - whole), symbols)
-                return self.normal(self._convert(ring, e.base, symbols) ** whole * rest)
+                return ring.reduced(self._convert(ring, e.base, symbols) ** whole * rest)
             if isinstance(e, sympy.tan):
                 return self._convert(ring, sympy.sin(e.args[0]) / sympy.cos(e.args[0]), symbols)
             return ring.convert(self.numbers.image(e))
@@ -192,7 +180,8 @@ class Dimensions:
         raise ValueError(f"{e} is not a polynomial in the parameters and exact real numbers")
 
     def _number(self, e: Any) -> Polynomial:
-        return self.numbers.normal(self.numbers.ring.convert(self.polynomial(self.base, e)))
+        ring = self.numbers.ring
+        return ring.reduced(ring.convert(self.polynomial(self.base, e)))
 
     def _auxiliary(self, base: Any, index: int) -> str:
         for auxiliary in self.auxiliaries:
@@ -355,10 +344,6 @@ class Sized:
     def number(self, expression: Any) -> Polynomial:
         """A dimension as a reduced polynomial of the ring."""
         return self.dimensions.polynomial(self.ring, expression)
-
-    def reduced(self, polynomial: Polynomial) -> Polynomial:
-        """The same value, of low degree in the constants."""
-        return self.dimensions.normal(polynomial)
 
 
 def dimensions(mechanism: Mechanism, variables: Sequence[str]) -> Sized:

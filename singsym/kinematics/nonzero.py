@@ -11,9 +11,9 @@ from functools import cached_property, lru_cache
 from functools import reduce as fold
 
 from singsym.kinematics.placement import ConfigurationSpace
-from singsym.kinematics.reduced_forms import LONGEST, ShortForms, short_forms
 from singsym.kinematics.signs import Signs, signs
 from singsym.polynomials import Polynomial
+from singsym.polynomials.short_forms import LONGEST, ShortForms, short_forms
 
 LONGEST_SUM = 40
 """The sign of longer sums is not looked for."""

@@ -60,12 +60,6 @@ class NumberField:
         """The ring of the constants alone."""
         return Ring(tuple(c.name for c in self.constants), constants=self.constants)
 
-    def normal(self, polynomial: Polynomial) -> Polynomial:
-        """Reduced modulo the minimal polynomials."""
-        for relation in polynomial.ring.relations:
-            polynomial = Polynomial(polynomial.ring, divmod(polynomial.value, relation.value)[1])
-        return polynomial
-
     def image(self, number: Any) -> Polynomial:
         """A root, sine or cosine that was met; raises `ValueError` for one that was not."""
         if number in self.images:
@@ -73,7 +67,7 @@ class NumberField:
         if isinstance(number, (sympy.sin, sympy.cos)):
             turn = _turn(_cosines(number)[0])
             if self.order % turn.denominator == 0 and self.order > 1:
-                return _cosine(self.ring, self.constants[0].name, int(turn * self.order))
+                return _chebyshev(self.ring, self.ring.gens[0], int(turn * self.order))
         if number.is_Pow and number.exp.is_Rational and number.base.is_Rational and number.exp.q == 2:
             free, factor = _squarefree(int(number.base.p * number.base.q))
             root = sympy.sqrt(free)
@@ -87,7 +81,7 @@ class NumberField:
 
     def inverse(self, polynomial: Polynomial) -> Polynomial:
         """1/p for a nonzero element, by linear algebra over Q."""
-        polynomial = self.normal(polynomial)
+        polynomial = self.ring.reduced(polynomial)
         if polynomial.is_zero:
             raise ZeroDivisionError("division by a number that is zero")
         if polynomial.is_constant:
@@ -97,7 +91,7 @@ class NumberField:
         place = {m: i for i, m in enumerate(basis)}
         matrix = fmpq_mat(len(basis), len(basis))
         for j, m in enumerate(basis):
-            for exponents, c in self.normal(polynomial * self.ring.from_dict({m: 1})).terms():
+            for exponents, c in self.ring.reduced(polynomial * self.ring.from_dict({m: 1})).terms():
                 matrix[place[tuple(int(e) for e in exponents)], j] = c
         one = fmpq_mat(len(basis), 1)
         one[place[(0,) * len(self.constants)], 0] = fmpq(1)
@@ -180,7 +174,7 @@ def _composed(numbers: NumberField, found: tuple[int, tuple[int, ...], Fraction]
         image = image * numbers.ring.gen(f"sqrt{g}")
     if inside > 1:
         image = image * _gauss_sum(numbers.ring, numbers.constants[0].name, inside, numbers.order)
-    return numbers.normal(image)
+    return numbers.ring.reduced(image)
 
 
 def _conductor(d: int) -> int:
@@ -211,19 +205,6 @@ def _turn(angle: Any) -> Fraction:
     return Fraction(int(turn.p), int(turn.q)) % 1
 
 
-def _cosine(ring: Ring, name: str, k: int) -> Polynomial:
-    """cos(2 pi k / m) as a polynomial in cos(2 pi / m): Chebyshev's T_k, reduced."""
-    relation = next(r for c, r in zip(ring.constants, ring.relations, strict=True) if c.name == name)
-    x = ring.gen(name)
-    before, now = ring.one, x
-    if k == 0:
-        return before
-    for _ in range(k - 1):
-        following = Polynomial(ring, divmod((x * now * 2 - before).value, relation.value)[1])
-        before, now = now, following
-    return now
-
-
 def _gauss_sum(ring: Ring, name: str, d: int, order: int) -> Polynomial:
     """sqrt(d) in the field of cosines: sqrt(D) = sum of (D/k) cos(2 pi k/D) for the discriminant D."""
     conductor = _conductor(d)
@@ -231,7 +212,7 @@ def _gauss_sum(ring: Ring, name: str, d: int, order: int) -> Polynomial:
     for k in range(1, conductor):
         sign = int(sympy.kronecker_symbol(conductor, k))
         if sign:
-            total = total + _cosine(ring, name, k * (order // conductor)) * sign
+            total = total + _chebyshev(ring, ring.gen(name), k * (order // conductor)) * sign
     return total if conductor == d else total / 2
 
 
@@ -280,8 +261,9 @@ def _primitive(atoms: Atoms) -> NumberField:
 
 
 def _chebyshev(ring: Ring, x: Polynomial, k: int) -> Polynomial:
+    """cos(k t) as a polynomial in x = cos(t): Chebyshev's T_k, reduced."""
     before, now = ring.one, x
     for _ in range(k):
-        following = Polynomial(ring, divmod((x * now * 2 - before).value, ring.relations[0].value)[1])
+        following = ring.reduced(x * now * 2 - before)
         before, now = now, following
     return before

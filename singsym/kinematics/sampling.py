@@ -1,93 +1,24 @@
 """Random real configurations, found numerically: Gauss-Newton steps onto the loop equations.
 
-Source: Gauss-Newton with minimum-norm steps: Nocedal, Wright, Numerical Optimization (2006), section 10.3.
+Source: Gauss-Newton with steps of least norm, see `polynomials.gauss_newton`.
 Numbers found here may suggest and illustrate; nothing is concluded from them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from singsym.kinematics.placement import ConfigurationSpace
-from singsym.polynomials import Polynomial, PolynomialMatrix
+from singsym.polynomials import Polynomial
 from singsym.polynomials.sizes import variable_sizes
 
 if TYPE_CHECKING:
     import numpy as np
-    from numpy.typing import NDArray
 
-    Floats = NDArray[np.float64]
+    from singsym.polynomials.compiled_map import CompiledMap, Floats
 
-_STEPS = 60
-_TOLERANCE = 1e-12
 # values of inequalities and exclusions that count as zero, over the sizes of their terms
 _ZERO, _NEAR_ZERO = 1e-9, 1e-6
-
-
-class NumericalSystem:
-    """Polynomials compiled to arrays of exponents and coefficients, for many evaluations in floats."""
-
-    def __init__(self, polynomials: Sequence[Polynomial], size: int) -> None:
-        import numpy as np
-
-        self.polynomials = tuple(polynomials)
-        monomials: dict[tuple[int, ...], int] = {}
-        rows, columns, values = [], [], []
-        for i, polynomial in enumerate(polynomials):
-            for exponents, c in polynomial.terms():
-                key = tuple(int(e) for e in exponents)
-                rows.append(i)
-                columns.append(monomials.setdefault(key, len(monomials)))
-                values.append(int(c.p) / int(c.q))
-        self.exponents = np.array(list(monomials), dtype=np.int64).reshape(len(monomials), size)
-        self.coefficients = np.zeros((len(polynomials), len(monomials)))
-        self.coefficients[rows, columns] = values
-
-    @cached_property
-    def sizes(self) -> Floats:
-        """How large the variables are, by `variable_sizes`."""
-        import numpy as np
-
-        if not self.polynomials:
-            return np.ones(self.exponents.shape[1])
-        return np.array(variable_sizes(self.polynomials[0].ring, self.polynomials))
-
-    def magnitudes(self, point: Floats, sizes: Floats) -> Floats:
-        """Sums of the absolute values of all terms, where no variable is taken for smaller than its size."""
-        import numpy as np
-
-        far = np.maximum(np.abs(point), sizes)
-        found: Floats = np.abs(self.coefficients) @ (far**self.exponents).prod(axis=1)
-        return found
-
-    def values(self, point: Floats) -> Floats:
-        """The polynomials' values."""
-        found: Floats = self.coefficients @ (point**self.exponents).prod(axis=1)
-        return found
-
-    def jacobian(self, point: Floats) -> Floats:
-        """The derivatives, one row a polynomial, one column a variable of the ring."""
-        import numpy as np
-
-        powers = point**self.exponents
-        slopes = self.exponents * point ** np.maximum(self.exponents - 1, 0)
-        found = np.zeros((len(self.coefficients), len(point)))
-        for j in range(len(point)):
-            others = np.delete(powers, j, axis=1).prod(axis=1)
-            found[:, j] = self.coefficients @ (slopes[:, j] * others)
-        return found
-
-
-def numerical_matrix(matrix: PolynomialMatrix, point: Floats) -> Floats:
-    """A matrix of polynomials at a point given in the order of the ring's names."""
-    import numpy as np
-
-    entries = [e for row in matrix.rows for e in row]
-    values: Any = NumericalSystem(entries, len(matrix.ring.names)).values(point)
-    found: Floats = np.asarray(values).reshape(matrix.shape)
-    return found
 
 
 def sample_configurations(
@@ -105,11 +36,14 @@ def sample_configurations(
     """
     import numpy as np
 
+    from singsym.polynomials.compiled_map import CompiledMap
+    from singsym.polynomials.gauss_newton import project
+
     random = np.random.default_rng(seed)
     size = len(space.ring.names)
-    equations = NumericalSystem(space.equations, size)
-    sides = NumericalSystem((*space.positive, *space.nonnegative), size)
-    exclusions = [NumericalSystem(group, size) for group in space.exclusions]
+    equations = CompiledMap.balanced(space.equations, space.ring)
+    sides = CompiledMap((*space.positive, *space.nonnegative), space.ring)
+    exclusions = [CompiledMap(group, space.ring) for group in space.exclusions]
     known = {space.ring.index(c.name): _root(c) for c in space.ring.constants}
     dimensions = {space.ring.index(name) for name in space.parameters}
     free = [i for i in range(size) if i not in known and i not in dimensions]
@@ -139,58 +73,39 @@ def _all_polynomials(space: ConfigurationSpace) -> tuple[Polynomial, ...]:
     return (*space.equations, *space.positive, *space.nonnegative, *(p for group in groups for p in group))
 
 
-def _vanish(group: NumericalSystem, point: Floats, sizes: Floats) -> bool:
+def _vanish(group: CompiledMap, point: Floats, sizes: Floats) -> bool:
     """Whether all of them are about zero."""
     import numpy as np
 
     return bool((np.abs(group.values(point)) <= _NEAR_ZERO * group.magnitudes(point, sizes)).all())
 
 
-def project(equations: NumericalSystem, point: Floats, free: list[int]) -> Floats | None:
-    """The end of Gauss-Newton from a point, moving the free coordinates only; None where it stalls.
-
-    Values count against the sizes of their equations' terms, steps against the sizes of the variables.
-    """
-    import numpy as np
-
-    sizes = equations.sizes
-    for _ in range(_STEPS):
-        scale = equations.magnitudes(point, sizes)
-        scale[scale == 0] = 1.0
-        residual = equations.values(point) / scale
-        if float(np.abs(residual).max(initial=0.0)) < _TOLERANCE:
-            return point
-        jacobian = equations.jacobian(point)[:, free] * sizes[free] / scale[:, np.newaxis]
-        step = np.linalg.lstsq(jacobian, residual, rcond=1e-10)[0] * sizes[free]
-        point = point.copy()
-        point[free] -= step
-        if not np.isfinite(point).all():
-            return None
-    return None
-
-
 class _Ranges:
     """Draws parameters within their open ranges: rejection on the inequalities in parameters alone."""
 
     def __init__(self, space: ConfigurationSpace, sizes: Floats) -> None:
+        from singsym.polynomials.compiled_map import CompiledMap
+
         names = {*space.parameters, *(c.name for c in space.ring.constants)}
-        size = len(space.ring.names)
         self.indices = [space.ring.index(name) for name in space.parameters]
         self.sizes = sizes[self.indices]
-        self.bounds = NumericalSystem([p for p in space.positive if set(p.variables) <= names], size)
+        self.bounds = CompiledMap([p for p in space.positive if set(p.variables) <= names], space.ring)
         # auxiliary roots and inverses of parameters obey equations among the dimensions alone
         own = [e for e in space.equations if set(e.variables) <= names]
-        self.relations = NumericalSystem([e for e in own if set(e.variables) & set(space.parameters)], size)
+        relations = [e for e in own if set(e.variables) & set(space.parameters)]
+        self.relations = CompiledMap.balanced(relations, space.ring)
 
     def draw(self, point: Floats, random: np.random.Generator) -> bool:
         """Put random parameters into the point; False where none was found."""
         import numpy as np
 
+        from singsym.polynomials.gauss_newton import project
+
         for attempt in range(200):
             spread = (1.0, 3.0, 10.0, 0.3)[attempt % 4]
             point[self.indices] = np.abs(random.normal(size=len(self.indices))) * spread * self.sizes
             if (self.bounds.values(point) > 0).all():
-                if not len(self.relations.coefficients):
+                if not self.relations.count:
                     return True
                 landed = project(self.relations, point, self.indices)
                 if landed is not None and (self.bounds.values(landed) > 0).all():

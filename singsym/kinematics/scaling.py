@@ -9,7 +9,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from singsym.kinematics.sampling import numerical_matrix
 from singsym.kinematics.velocity import VelocityEquation
 
 if TYPE_CHECKING:
@@ -94,6 +93,8 @@ def scaled_matrix(equation: VelocityEquation, point: Sequence[Any] | Floats) -> 
 
 def _evaluated(equation: VelocityEquation, point: Sequence[Any] | Floats) -> Matrix:
     import numpy as np
+
+    from singsym.polynomials.compiled_map import numerical_matrix
 
     if isinstance(point, np.ndarray):
         return numerical_matrix(equation.matrix, point)

@@ -11,9 +11,9 @@ from fractions import Fraction
 from functools import cached_property, lru_cache
 from math import inf, isfinite
 
-from singsym.kinematics.reduced_forms import ShortForms, short_forms
 from singsym.polynomials import Polynomial, Ring
 from singsym.polynomials.ranges import EVERYTHING, Interval, fraction, meet, polynomial_range, root_above
+from singsym.polynomials.short_forms import ShortForms, short_forms
 
 # relative to the largest term
 _ROUNDING = 1e-9

@@ -14,7 +14,7 @@ from singsym.kinematics.formulations import place
 from singsym.kinematics.loops import loops, path, point_path
 from singsym.kinematics.placement import ConfigurationSpace, Coordinates, JointValue, Placement
 from singsym.mechanism.model import JointRate, Mechanism, Output, PointVelocity, Space
-from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
+from singsym.polynomials import Polynomial, PolynomialMatrix
 
 Role = Literal["output", "input", "passive"]
 
@@ -136,7 +136,7 @@ def velocity_equation(mechanism: Mechanism, formulation: str = "auto") -> Veloci
     inputs = set(mechanism.inputs)
     columns = [Column(label, "output") for label in labels]
     columns += [Column(c, "input" if c in inputs else "passive") for c in joint_columns]
-    matrix = PolynomialMatrix.of(ring, [[_reduced(ring, e) for e in row] for row in rows], width)
+    matrix = PolynomialMatrix.of(ring, [[ring.reduced(e) for e in row] for row in rows], width)
     return VelocityEquation(
         placed.space, matrix, tuple(columns), tuple(names), mechanism.N, mechanism.n, placed.values
     )
@@ -209,10 +209,3 @@ def _at(screw: Coordinates, point: Coordinates, space: Space) -> Coordinates:
     if space is Space.SPHERICAL:
         return (*screw, *turned)
     return (*screw[:3], *(v + t for v, t in zip(screw[3:], turned, strict=True)))
-
-
-def _reduced(ring: Ring, polynomial: Polynomial) -> Polynomial:
-    """The same entry with powers of the ring's constants reduced (sqrt(3)^2 becomes 3)."""
-    for relation in ring.relations:
-        polynomial = Polynomial(ring, divmod(polynomial.value, relation.value)[1])
-    return polynomial

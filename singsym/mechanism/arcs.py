@@ -14,6 +14,7 @@ import sympy
 from flint import arb, fmpq
 
 from singsym.mechanism.model import Limit
+from singsym.polynomials.unit_circles import half_angle_point
 
 OUTWARDS = Fraction(1, 10**6)
 """Ends given as decimals move outwards by at most so many radians, to rational points of the circle."""
@@ -134,7 +135,7 @@ def rational_point(angle: Fraction, up: bool) -> Point:
     else:
         edge = _fraction(tangent.lower())
         t = simplest(edge - spare, edge)
-    cosine, sine = (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)
+    cosine, sine = half_angle_point(t)
     for _ in range(quarters % 4):
         cosine, sine = -sine, cosine
     return tuple(sympy.Rational(x.numerator, x.denominator) for x in (cosine, sine))

@@ -12,8 +12,9 @@ from itertools import combinations
 from singsym.kinematics.nonzero import Certifier
 from singsym.minors.blocks import block_triangular
 from singsym.minors.determinant import block_determinants, maximal_minors
-from singsym.minors.trigonometry import circle_pairs, trigonometric_factors
+from singsym.minors.trigonometry import trigonometric_factors
 from singsym.polynomials import Polynomial, PolynomialMatrix
+from singsym.polynomials.unit_circles import separate_circles
 
 CONDENSED = 7
 """Larger blocks are condensed before they are expanded."""
@@ -95,7 +96,7 @@ def _best(polynomial: Polynomial, certifier: Certifier) -> list[tuple[Polynomial
     """The factorisation with the fewest terms among equal values on the configuration space; None if zero."""
     if len(polynomial) > LARGEST:
         return polynomial.factors()
-    pairs = circle_pairs(certifier.space.equations)
+    pairs = separate_circles(certifier.space.equations)
     result: list[tuple[Polynomial, int]] = []
     for factor, multiplicity in polynomial.factors():
         reduced = certifier.normal_form(factor)

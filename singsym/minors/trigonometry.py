@@ -13,25 +13,15 @@ from functools import cache
 from flint import fmpq
 
 from singsym.polynomials import Polynomial
+from singsym.polynomials.unit_circles import Pair
 
 Factors = list[tuple[Polynomial, int]]
 
 
-def circle_pairs(equations: Sequence[Polynomial]) -> tuple[tuple[str, str], ...]:
-    """The pairs (c, s) of variables with c^2 + s^2 - 1 among the equations, each variable in one pair."""
-    pairs: list[tuple[str, str]] = []
-    for equation in equations:
-        names = equation.variables
-        if len(names) == 2 and not any(set(names) & set(pair) for pair in pairs):
-            c, s = (equation.ring.gen(name) for name in names)
-            if equation.primitive() == c * c + s * s - 1:
-                pairs.append((names[0], names[1]))
-    return tuple(pairs)
-
-
-def trigonometric_factors(polynomial: Polynomial, pairs: Sequence[tuple[str, str]]) -> Factors:
+def trigonometric_factors(polynomial: Polynomial, pairs: Sequence[Pair]) -> Factors:
     """Factors whose product has the polynomial's values on the circles, up to a constant.
 
+    pairs: cosines and sines, no variable in two of them.
     Half-angle factors of odd degree are multiplied together with others until all degrees are even.
 
     >>> from singsym.polynomials import Ring
@@ -63,14 +53,14 @@ def trigonometric_factors(polynomial: Polynomial, pairs: Sequence[tuple[str, str
     return sorted(result, key=lambda pair: (len(pair[0]), pair[0].total_degree, str(pair[0])))
 
 
-def _degree(form: Polynomial, pair: tuple[str, str]) -> int:
+def _degree(form: Polynomial, pair: Pair) -> int:
     """The degree of a form in the two variables of a pair together."""
     i, j = (form.ring.index(name) for name in pair)
     exponents = form.terms()[0][0]
     return int(exponents[i] + exponents[j])
 
 
-def _form(polynomial: Polynomial, pairs: Sequence[tuple[str, str]]) -> Polynomial:
+def _form(polynomial: Polynomial, pairs: Sequence[Pair]) -> Polynomial:
     """The form in the half-angles; the names of a pair now stand for (u, v)."""
     ring = polynomial.ring
     places = [(ring.index(c), ring.index(s)) for c, s in pairs]
@@ -113,7 +103,7 @@ def _joined(odd: dict[tuple[int, ...], list[Polynomial]]) -> Factors:
     return list(found.items())
 
 
-def _trigonometric(form: Polynomial, pairs: Sequence[tuple[str, str]]) -> Polynomial:
+def _trigonometric(form: Polynomial, pairs: Sequence[Pair]) -> Polynomial:
     """The trigonometric polynomial of a form of even degree in each half-angle: 2 u^2 = 1 + c, 2 u v = s."""
     ring = form.ring
     total = ring.zero

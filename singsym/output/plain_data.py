@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from singsym.classes.configuration.at import Analysis
+    from singsym.classes.result import Classification, Configuration
     from singsym.classes.solve import Solution
     from singsym.classes.taxonomy.types import Table
     from singsym.conditions.conditions import Condition, Conditions
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from singsym.kinematics.velocity import VelocityEquation
     from singsym.mechanism.model import Mechanism
     from singsym.polynomials import PolynomialMatrix
+    from singsym.varieties.real.dimension.extent import Extent
 
 
 def mechanism_data(mechanism: Mechanism, equation: VelocityEquation) -> dict[str, Any]:
@@ -120,6 +122,85 @@ def classes_data(table: Table, n: int) -> dict[str, Any]:
     }
 
 
+def classification_data(found: Classification) -> dict[str, Any]:
+    """Everything that a classification found out."""
+    from singsym.classes.result import conditions_latex
+
+    return {
+        "mechanism": found.mechanism.name if found.mechanism else "",
+        "N": found.equation.N,
+        "n": found.equation.n,
+        "parameters": list(found.equation.space.parameters),
+        "configuration_space": [
+            {
+                **extent_data(piece.extent),
+                "smooth": piece.smooth,
+                "delta": piece.defects.delta,
+                "types": piece.defects.types.names,
+                "certainty": piece.verdict.certainty,
+                "remark": piece.remark,
+            }
+            for piece in found.configuration_space
+        ],
+        "loci": [
+            {
+                "number": number,
+                "condition": locus.condition,
+                "factor": str(locus.factor),
+                "latex": locus.latex,
+                "words": locus.words,
+                **extent_data(locus.extent),
+                "components": locus.components,
+                "points": locus.points,
+                "verdict": str(locus.verdict.answer),
+                "reason": locus.verdict.reason or locus.open or locus.remark,
+            }
+            for number, locus in enumerate(found.loci, 1)
+        ],
+        "classes": [
+            {
+                "number": result.singularity_class.number,
+                "types": result.types.names,
+                "verdict": str(result.verdict.answer),
+                "certainty": str(result.verdict.certainty),
+                **extent_data(result.extent),
+                "dimension": result.dimension,
+                "points": result.points,
+                "components": result.components,
+                "witnesses": [_witness(w) for w in result.witnesses],
+                "conditions": result.conditions,
+                "unsure": [conditions_latex([piece]) for piece in result.unsure],
+                "steps": list(result.steps),
+                "reason": result.verdict.reason or result.open or result.remark,
+            }
+            for result in found.classes
+        ],
+        "open": [{"what": what, "reason": reason} for what, reason in found.open_questions()],
+        "remarks": list(found.notes()),
+        "engines": list(found.engines),
+        "seed": found.seed,
+        "seconds": round(found.seconds, 3),
+    }
+
+
+def extent_data(extent: Extent) -> dict[str, Any]:
+    """The dimension, None where it is not known, with what is known of it then and why no more is.
+
+    >>> from singsym.varieties.real.dimension.extent import Extent
+    >>> extent_data(Extent(1, None, open="out of time"))
+    {'dimension': None, 'at_least': 1, 'dimension_reason': 'out of time'}
+    """
+    found: dict[str, Any] = {"dimension": extent.dimension}
+    if extent.dimension is None and extent.at_least >= 0:
+        return {**found, "at_least": extent.at_least, "dimension_reason": extent.open}
+    return {**found, "dimension_reason": extent.resting} if extent.resting else found
+
+
+def _witness(found: Configuration) -> dict[str, str]:
+    """One flat object name -> decimal string, with `radius`."""
+    return {**found.coordinates, **found.points, **found.joints, "radius": found.radius}
+
+
 def mobility_data(name: str, equation: VelocityEquation, found: Mobility) -> dict[str, Any]:
     """Generic ranks at random configurations, and what they contradict."""
     return {
@@ -142,7 +223,7 @@ def solution_data(name: str, solutions: Iterable[Solution]) -> dict[str, Any]:
                 "condition": s.condition.label,
                 "statement": s.condition.statement,
                 "verdict": str(s.verdict.answer),
-                **s.extent.as_json(),
+                **extent_data(s.extent),
                 "pieces": [
                     {
                         "equations": [str(p) for p in piece.path],
@@ -150,9 +231,9 @@ def solution_data(name: str, solutions: Iterable[Solution]) -> dict[str, Any]:
                         "exclusions": [[str(p) for p in group] for group in piece.exclusions],
                         "verdict": str(piece.verdict.answer),
                         "certainty": str(piece.verdict.certainty),
-                        **piece.extent.as_json(),
+                        **extent_data(piece.extent),
                         "points": piece.points,
-                        "witnesses": [w.as_json() for w in piece.witnesses],
+                        "witnesses": [_witness(w) for w in piece.witnesses],
                     }
                     for piece in s.pieces
                 ],

@@ -196,6 +196,20 @@ class Ring:
             for c in self.constants
         )
 
+    def reduced(self, polynomial: Polynomial) -> Polynomial:
+        """The same value, in each constant of a degree below that of its minimal polynomial.
+
+        >>> root = AlgebraicConstant("r", (-3, 0, 1), Fraction(1), Fraction(2))
+        >>> R = Ring(("x", "r"), constants=(root,))
+        >>> x, r = R.gens
+        >>> R.reduced((x + r) ** 2)
+        x^2 + 2*x*r + 3
+        """
+        for constant, relation in zip(self.constants, self.relations, strict=True):
+            if polynomial.degree(constant.name) >= len(constant.minimal) - 1:
+                polynomial = Polynomial(self, divmod(polynomial.value, relation.value)[1])
+        return polynomial
+
 
 @lru_cache(maxsize=1000)
 def _unpickled(

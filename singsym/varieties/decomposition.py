@@ -17,6 +17,7 @@ from singsym.effort.progress import Sink, report, to
 from singsym.effort.verdict import Known, Premises, weakest
 from singsym.elimination import engines
 from singsym.elimination.ideal import Ideal
+from singsym.elimination.linear_substitution import shortest_substitution
 from singsym.elimination.memo import remember
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.irreducibility import Splitting, analyse, independent_variables, leading_exponents
@@ -24,7 +25,6 @@ from singsym.varieties.splitting import (
     factor_equations,
     irreducible_factors,
     levels,
-    linear_substitution,
     used_ring,
 )
 
@@ -165,7 +165,7 @@ def _branch(
             found += premises.take(_branch(ring, (*rest, f), nonzero | frozenset(chosen[:i])))
         return premises.conclude(found)
     single = tuple(f[0] for f in factored)
-    substitution = linear_substitution(single)
+    substitution = shortest_substitution(single)
     if substitution is None:
         return _by_levels(used_ring(ring, single), single, nonzero)
     smaller = ring.with_names(n for n in ring.names if n != substitution.name)
@@ -258,7 +258,7 @@ def _refined(system: _System) -> Known[tuple[Component, ...]]:
     single = tuple(_product(f, system.ring) for f in factored)
     unchanged = {p.primitive() for p in system.equations if p} <= set(single)
     system = system.replaced(single, same_ideal=unchanged)
-    substitution = linear_substitution(single)
+    substitution = shortest_substitution(single)
     if substitution is None:
         return _by_basis(system)
     smaller = system.ring.with_names(n for n in system.ring.names if n != substitution.name)
@@ -298,7 +298,7 @@ def _by_basis(system: _System) -> Known[tuple[Component, ...]]:
         found = _by_factors(system, factored[-1])
     elif not single.issuperset(basis):
         found = _refine(system.replaced((*basis, *single), same_ideal=False))
-    elif linear_substitution(basis) is not None:
+    elif shortest_substitution(basis) is not None:
         found = _refine(system)
     else:
         found = _by_eliminant(system, premises.conclude(Ideal(system.ring, basis)), dimension)

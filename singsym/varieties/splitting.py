@@ -52,46 +52,6 @@ def factor_equations(
 
 
 @dataclass(frozen=True)
-class Substitution:
-    """A variable that an equation gives as a polynomial in the others."""
-
-    name: str
-    value: Polynomial
-
-    @property
-    def equation(self) -> Polynomial:
-        """The polynomial that vanishes where the variable has this value."""
-        return (self.value.ring.gen(self.name) - self.value).primitive()
-
-    def apply(self, polynomials: Iterable[Polynomial]) -> tuple[Polynomial, ...]:
-        """Polynomials with the value put in."""
-        return tuple(p.substitute({self.name: self.value}) for p in polynomials)
-
-
-def linear_substitution(equations: Sequence[Polynomial]) -> Substitution | None:
-    """A variable with a constant coefficient in an equation linear in it, from the shortest equation.
-
-    >>> x, y = Ring(("x", "y")).gens
-    >>> linear_substitution([x**2 + 2 * y - 1]).value
-    -1/2*x^2 + 1/2
-    """
-    best: tuple[int, int, Substitution] | None = None
-    for p in equations:
-        ring = p.ring
-        constants = {c.name for c in ring.constants}
-        for i, (name, degree) in enumerate(zip(ring.names, p.degrees, strict=True)):
-            if degree != 1 or name in constants:
-                continue
-            holding = [(m, c) for m, c in p.terms() if m[i]]
-            if len(holding) > 1 or sum(holding[0][0]) > 1:
-                continue
-            size = (p.total_degree, len(p))
-            if best is None or size < best[:2]:
-                best = (*size, Substitution(name, ring.gen(name) - p / holding[0][1]))
-    return best[2] if best else None
-
-
-@dataclass(frozen=True)
 class Level:
     """A step of the work: the equations to add, and the variables that occur from here on."""
 

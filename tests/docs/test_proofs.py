@@ -20,7 +20,13 @@ from singsym.effort.verdict import Answer, Certainty
 from singsym.kinematics.mobility import check_mobility
 from singsym.kinematics.velocity import velocity_equation
 from singsym.mechanism import load
-from singsym.output.plain_data import analysis_data, conditions_data, mobility_data, solution_data
+from singsym.output.plain_data import (
+    analysis_data,
+    classification_data,
+    conditions_data,
+    mobility_data,
+    solution_data,
+)
 
 PAGE = resources.files(singsym).joinpath("docs", "proofs.md").read_text(encoding="utf-8")
 FOLDERS = [module.name for module in iter_modules(singsym.__path__) if module.ispkg]
@@ -124,7 +130,7 @@ def outputs() -> dict[str, Any]:
     equation = velocity_equation(mechanism)
     dead = {"points": {"B": [1, 0], "C": [4, 0]}}
     return {
-        "classify": classify(mechanism, cache=False).as_json(),
+        "classify": classification_data(classify(mechanism, cache=False)),
         "solve": solution_data("", solve(mechanism, "5", "i", cache=False)),
         "conditions": conditions_data("", conditions(equation)),
         "check": mobility_data("", equation, check_mobility(equation)),

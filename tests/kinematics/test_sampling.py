@@ -8,14 +8,10 @@ import numpy as np
 import pytest
 
 from singsym.kinematics.mobility import check_mobility
-from singsym.kinematics.sampling import NumericalSystem, project, sample_configurations
+from singsym.kinematics.sampling import sample_configurations
 from singsym.kinematics.velocity import loop_closure, velocity_equation
 from singsym.mechanism import load
 from singsym.mechanism.units import scaled
-from singsym.polynomials import Ring
-
-R = Ring(("x", "y"))
-x, y = R.gens
 
 
 def test_constants_such_as_roots_of_large_numbers_are_no_lengths() -> None:
@@ -40,11 +36,3 @@ def test_configurations_grow_with_the_mechanism(k: Fraction) -> None:
         strict=True,
     ):
         assert np.allclose(other, float(k) * one, rtol=1e-6, atol=0)
-
-
-@pytest.mark.parametrize("radius", [Fraction(1, 10**6), Fraction(10**6)])
-def test_a_projection_is_as_close_as_its_equation_is_large(radius: Fraction) -> None:
-    circle = NumericalSystem((x**2 + y**2 - radius**2,), 2)
-    landed = project(circle, np.array([3.0, 4.0]) * float(radius), [0, 1])
-    assert landed is not None
-    assert landed == pytest.approx(np.array([0.6, 0.8]) * float(radius), rel=1e-9)

@@ -11,9 +11,9 @@ import sympy
 
 from singsym.kinematics import check_mobility, place, sample_configurations, velocity_equation
 from singsym.kinematics.numerical_rank import numerical_rank
-from singsym.kinematics.sampling import numerical_matrix
 from singsym.mechanism import load
 from singsym.mechanism.model import Joint, JointKind, JointRate, Link, Mechanism, PointVelocity, Space, Twist
+from singsym.polynomials.compiled_map import numerical_matrix
 
 HALF = sympy.Rational(1, 2)
 AXES = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1), "p": ("3/5", "4/5", 0), "q": (0, "3/5", "4/5")}

@@ -19,10 +19,10 @@ from singsym.kinematics import (
     velocity_equation,
 )
 from singsym.kinematics.numerical_rank import numerical_rank
-from singsym.kinematics.sampling import numerical_matrix
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism import load
 from singsym.mechanism.model import JointRate, Mechanism, Parameter, PointVelocity, Twist
+from singsym.polynomials.compiled_map import numerical_matrix
 from tests.kinematics.linkages import crane
 
 

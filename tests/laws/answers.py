@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 Answer = Mapping[str, Any]
-"""What `Classification.as_json` gives, or the command line with `--format json`."""
+"""What `output.plain_data.classification_data` gives, or the command line with `--format json`."""
 
 
 def contradictions(one: Answer, two: Answer, *, same_names: bool = True) -> list[str]:

@@ -9,13 +9,14 @@ import pytest
 
 from singsym.classes.classify import classify
 from singsym.mechanism import load
+from singsym.output.plain_data import classification_data
 from tests.laws.answers import contradictions
 
 
 @pytest.fixture(scope="module")
 def crank_rocker() -> dict[str, Any]:
     """Class 1 in 4 points, all else empty, a smooth curve of configurations."""
-    return classify(load("fourbar"), cache=False).as_json()
+    return classification_data(classify(load("fourbar"), cache=False))
 
 
 def changed(answer: dict[str, Any], part: str, field: str, value: object) -> dict[str, Any]:

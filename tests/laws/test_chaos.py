@@ -17,6 +17,7 @@ from singsym.effort.chaos import chaos
 from singsym.elimination.memo import forget
 from singsym.mechanism import Mechanism, library, load
 from singsym.mechanism.urdf import from_urdf
+from singsym.output.plain_data import classification_data
 from tests.laws.answers import Answer, contradictions
 from tests.laws.draws import SEED, draw, runs
 
@@ -76,7 +77,7 @@ def mechanism(name: str) -> Mechanism:
 
 
 def answer(name: str, limits: Limits) -> Answer:
-    return classify(mechanism(name), cache=False, limits=limits).as_json()
+    return classification_data(classify(mechanism(name), cache=False, limits=limits))
 
 
 def withheld(name: str, whole: Answer, seed: int, probability: float) -> list[str]:

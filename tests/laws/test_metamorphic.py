@@ -19,6 +19,7 @@ from singsym.classes.classify import classify
 from singsym.elimination import engines
 from singsym.elimination.memo import forget
 from singsym.mechanism import Mechanism, library, load
+from singsym.output.plain_data import classification_data
 from tests.laws.answers import Answer, contradictions
 from tests.laws.disguises import DISGUISES
 from tests.laws.draws import SEED, draw, runs
@@ -35,7 +36,7 @@ DRAWN = [random.sample(pairs, min(len(pairs), runs(few))) for pairs, few in ((GU
 
 def classified(mechanism: Mechanism) -> Answer:
     forget()
-    return classify(mechanism, cache=False).as_json()
+    return classification_data(classify(mechanism, cache=False))
 
 
 @pytest.mark.parametrize(("name", "guise"), DRAWN[0])

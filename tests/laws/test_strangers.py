@@ -14,6 +14,7 @@ import pytest
 
 from singsym.classes.classify import Limits, classify
 from singsym.mechanism import Mechanism, dumps
+from singsym.output.plain_data import classification_data
 from tests.laws.answers import Answer, contradictions
 from tests.laws.disguises import mirrored, reordered, scaled
 from tests.laws.draws import SEED, draw, runs
@@ -23,7 +24,7 @@ LIMITS = Limits(seconds=5, total=30)
 
 
 def classified(mechanism: Mechanism) -> Answer:
-    return classify(mechanism, cache=False, limits=LIMITS).as_json()
+    return classification_data(classify(mechanism, cache=False, limits=LIMITS))
 
 
 @pytest.mark.parametrize("number", range(runs(4)))

@@ -18,9 +18,10 @@ from singsym.classes.classify import Limits, classify
 from singsym.classes.result import Classification
 from singsym.classes.taxonomy.types import Defects, SingularityType, feasible_classes
 from singsym.conditions.conditions import conditions
-from singsym.kinematics.sampling import numerical_matrix, sample_configurations
+from singsym.kinematics.sampling import sample_configurations
 from singsym.kinematics.velocity import VelocityEquation, velocity_equation
 from singsym.mechanism import Mechanism, library, load
+from singsym.polynomials.compiled_map import numerical_matrix
 
 Classified = Callable[[Mechanism], Classification]
 

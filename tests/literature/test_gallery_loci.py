@@ -15,9 +15,10 @@ from numpy.typing import NDArray
 
 from singsym.classes.result import Classification
 from singsym.classes.taxonomy.types import SingularityType
-from singsym.kinematics.sampling import numerical_matrix, sample_configurations
+from singsym.kinematics.sampling import sample_configurations
 from singsym.kinematics.velocity import velocity_equation
 from singsym.mechanism import Mechanism, load
+from singsym.polynomials.compiled_map import numerical_matrix
 
 Classified = Callable[[Mechanism], Classification]
 Vector = NDArray[np.float64]

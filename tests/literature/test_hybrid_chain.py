@@ -17,9 +17,10 @@ from numpy.typing import NDArray
 
 from singsym.classes.taxonomy.types import feasible_classes
 from singsym.conditions.conditions import conditions
-from singsym.kinematics.sampling import NumericalSystem, sample_configurations
+from singsym.kinematics.sampling import sample_configurations
 from singsym.kinematics.velocity import VelocityEquation, velocity_equation
 from singsym.mechanism import load
+from singsym.polynomials.compiled_map import CompiledMap
 from tests.literature.test_gallery import ranks
 
 Vector = NDArray[np.float64]
@@ -60,7 +61,7 @@ def class_at(equation: VelocityEquation, at: dict[str, Vector], ways: dict[str, 
         for joint, angle in angles.items():
             found |= {f"c_{leg}{joint}": np.cos(angle), f"s_{leg}{joint}": np.sin(angle)}
     point = np.array([found[name] for name in equation.space.ring.names])
-    closed = NumericalSystem(equation.space.equations, len(point)).values(point)
+    closed = CompiledMap(equation.space.equations, equation.space.ring).values(point)
     assert np.abs(closed).max() < 1e-12
     defects = ranks(equation, point)
     assert defects is not None

@@ -10,9 +10,10 @@ import pytest
 
 from singsym.classes.result import Classification
 from singsym.classes.taxonomy.types import SingularityType
-from singsym.kinematics.sampling import numerical_matrix, sample_configurations
+from singsym.kinematics.sampling import sample_configurations
 from singsym.kinematics.velocity import VelocityEquation, velocity_equation
 from singsym.mechanism import Mechanism, load
+from singsym.polynomials.compiled_map import numerical_matrix
 from singsym.varieties.decomposition import decompose
 
 Classified = Callable[[Mechanism], Classification]

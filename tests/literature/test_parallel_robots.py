@@ -15,11 +15,12 @@ from singsym.classes.result import Classification
 from singsym.classes.taxonomy.types import SingularityType
 from singsym.conditions.conditions import conditions
 from singsym.elimination.ideal import Ideal
-from singsym.kinematics.sampling import numerical_matrix, sample_configurations
+from singsym.kinematics.sampling import sample_configurations
 from singsym.kinematics.velocity import VelocityEquation, velocity_equation
 from singsym.mechanism import Mechanism, load
 from singsym.minors.determinant import determinant
 from singsym.polynomials import Polynomial, Ring
+from singsym.polynomials.compiled_map import numerical_matrix
 from singsym.varieties.real.points.finite_sets import real_points
 
 Classified = Callable[[Mechanism], Classification]

@@ -9,8 +9,9 @@ from singsym.kinematics.nonzero import Certifier
 from singsym.kinematics.placement import ConfigurationSpace
 from singsym.minors.determinant import TooManyTerms, determinant
 from singsym.minors.factored import condense, determinant_factors, factored
-from singsym.minors.trigonometry import circle_pairs, trigonometric_factors
+from singsym.minors.trigonometry import trigonometric_factors
 from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
+from singsym.polynomials.unit_circles import separate_circles
 
 Vector = list[Polynomial]
 ARM = Ring(tuple(f"{f}{i}" for i in range(1, 7) for f in "cs"))
@@ -111,7 +112,7 @@ def test_factors_have_the_zeros_of_the_product(pieces: list[Polynomial], k: int,
         fmpq(value),
     ]
     for factors in (
-        trigonometric_factors(reduced, circle_pairs(SPACE.equations)),
+        trigonometric_factors(reduced, separate_circles(SPACE.equations)),
         factored([reduced], Certifier(SPACE)).factors,
     ):
         values = [f.evaluate(point) for f, _ in factors]

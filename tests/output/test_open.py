@@ -29,7 +29,7 @@ from singsym.output.html.report import report
 from singsym.output.latex import classification_latex
 from singsym.output.page import plain
 from singsym.output.pieces import parts_of
-from singsym.output.plain_data import solution_data
+from singsym.output.plain_data import classification_data, solution_data
 from singsym.output.strata_graph import strata_graph
 from singsym.output.text import classification_page, solution_page
 from singsym.varieties.real.dimension.extent import Extent
@@ -55,7 +55,7 @@ def shown(result: Classification, form: str) -> str:
         return report(result)
     if form == "gallery":
         return card(result).body
-    return json.dumps(result.as_json()) if form == "json" else result._repr_html_()
+    return json.dumps(classification_data(result)) if form == "json" else result._repr_html_()
 
 
 def shown_as_open(found: Classification, form: str) -> str:

@@ -1,8 +1,7 @@
 """The configuration near what is given, in floats, and its further digits in mpmath.
 
-Source: Levenberg-Marquardt and Gauss-Newton: Nocedal, Wright, Numerical Optimization (2006), chapter 10;
-simplified Newton steps for more digits: Ortega, Rheinboldt, Iterative Solution of Nonlinear Equations in
-Several Variables (1970), section 7.1.
+Source: least squares and Gauss-Newton, see `polynomials.gauss_newton`; for more digits simplified Newton
+steps: Ortega, Rheinboldt, Iterative Solution of Nonlinear Equations in Several Variables (1970), 7.1.
 """
 
 from __future__ import annotations
@@ -15,20 +14,17 @@ import sympy
 
 from singsym.classes.configuration.given_values import Target
 from singsym.kinematics.numerical_rank import numerical_rank
-from singsym.kinematics.sampling import NumericalSystem
 from singsym.kinematics.velocity import VelocityEquation
-from singsym.polynomials import Polynomial
+from singsym.polynomials import Polynomial, Ring
 from singsym.polynomials.sizes import variable_sizes
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    Floats = NDArray[np.float64]
+    from singsym.polynomials.compiled_map import Floats
+    from singsym.polynomials.gauss_newton import Map
 
 _STARTS = 60
-_STEPS = 80
-_ROUNDING = 1e-15
+_SMALL = 1e-9
+"""Singular values of the loop equations' slopes below so much of the largest count as zero."""
 
 
 @dataclass(frozen=True)
@@ -53,8 +49,57 @@ class Located:
     open: int
 
 
+class _Targets:
+    """How far the given values are from those of a point, over how large they are.
+
+    sizes: of the variables, made larger where a target is farther away than they can be; those of constants
+    stay.  scales: how large each target is.
+    """
+
+    def __init__(self, wanted: Sequence[Target], ring: Ring, sizes: Floats) -> None:
+        import numpy as np
+
+        from singsym.polynomials.compiled_map import CompiledMap
+
+        self.targets = wanted
+        self.values = np.array([float(t.value) for t in wanted])
+        self._sides = CompiledMap([t.polynomial for t in wanted], ring)
+        self._factors = CompiledMap([t.scale for t in wanted], ring)
+        origin = np.zeros(len(sizes))
+        sides = self._sides.magnitudes(origin, sizes)
+        values = abs(self.values) * self._factors.magnitudes(origin, sizes)
+        widest = np.ones(len(sizes))
+        fixed = {constant.name for constant in ring.constants}
+        for target, factor in zip(wanted, (values / _positive(sides)).tolist(), strict=True):
+            for name in {*target.polynomial.variables} - fixed:
+                index = ring.index(name)
+                widest[index] = max(widest[index], factor)
+        self.sizes = sizes * widest
+        self.scales = _positive(np.maximum(sides, values))
+
+    def __call__(self, points: Floats) -> tuple[Floats, Floats]:
+        """The differences at a point and their slopes."""
+        (sides, slopes), (factors, more) = self._sides(points), self._factors(points)
+        values = sides - self.values * factors
+        return values / self.scales, (slopes - self.values[:, None] * more) / self.scales[:, None]
+
+
+class _Together:
+    """The values of two maps of the same variables."""
+
+    def __init__(self, first: Map, second: Map) -> None:
+        self.first, self.second, self.sizes = first, second, first.sizes
+
+    def __call__(self, points: Floats) -> tuple[Floats, Floats]:
+        """Those of the first, then those of the second."""
+        import numpy as np
+
+        (values, slopes), (others, more) = self.first(points), self.second(points)
+        return np.concatenate([values, others]), np.vstack([slopes, more])
+
+
 class _Problem:
-    """Loops and targets in floats, in variables and equations divided by their sizes.
+    """Loops and targets in floats, over the sizes of their terms.
 
     free: the indices that may move; sizes: of the variables.
     """
@@ -62,42 +107,20 @@ class _Problem:
     def __init__(self, equation: VelocityEquation, wanted: Sequence[Target]) -> None:
         import numpy as np
 
+        from singsym.polynomials.compiled_map import CompiledMap
+
         ring = equation.space.ring
-        names = len(ring.names)
-        self.equations = (*equation.space.equations, *ring.relations)
-        self.targets = wanted
         self.constants = {ring.index(c.name): c.expression for c in ring.constants}
-        self.free = [i for i in range(names) if i not in self.constants]
-        self.wanted = np.array([float(t.value) for t in wanted])
-        self.sizes = sizes_of_coordinates(equation)
-        self.target_sizes = self._fitted_to_targets()
-        self.loops = self._system(self.equations)
-        self.sides = self._system([t.polynomial for t in wanted])
-        self.scales = self._system([t.scale for t in wanted])
-        self.loop_sizes = _positive(abs(self.loops.coefficients).sum(axis=1))
-
-    def _fitted_to_targets(self) -> Floats:
-        """How large each target is; variables are made larger where it is farther away than they can be."""
-        import numpy as np
-
-        sides = abs(self._system([t.polynomial for t in self.targets]).coefficients).sum(axis=1)
-        scales = abs(self._system([t.scale for t in self.targets]).coefficients).sum(axis=1)
-        values = abs(self.wanted) * scales
-        widest = [1.0] * len(self.sizes)
-        for target, factor in zip(self.targets, (values / _positive(sides)).tolist(), strict=True):
-            for name in target.polynomial.variables:
-                index = target.polynomial.ring.index(name)
-                if index not in self.constants:
-                    widest[index] = max(widest[index], factor)
-        self.sizes = self.sizes * widest
-        return _positive(np.maximum(sides, values))
-
-    def _system(self, polynomials: Sequence[Polynomial]) -> NumericalSystem:
-        system = NumericalSystem(polynomials, len(self.sizes))
-        system.coefficients *= (self.sizes**system.exponents).prod(axis=1)
-        return system
+        self.free = [i for i in range(len(ring.names)) if i not in self.constants]
+        self.targets = _Targets(wanted, ring, sizes_of_coordinates(equation))
+        self.sizes = self.targets.sizes
+        equations = (*equation.space.equations, *ring.relations)
+        terms = CompiledMap(equations, ring).magnitudes(np.zeros(len(self.sizes)), self.sizes)
+        self.loops = CompiledMap(equations, ring, self.sizes, _positive(terms))
+        self.both = _Together(self.loops, self.targets)
 
     def start(self) -> Floats:
+        """The origin, but for the constants."""
         import numpy as np
 
         found = np.zeros(len(self.sizes))
@@ -105,29 +128,28 @@ class _Problem:
             found[index] = float(value)
         return found
 
-    def on_loops(self, y: Floats) -> tuple[Floats, Floats]:
-        """Values and slopes of the loop equations."""
-        sizes = self.loop_sizes
-        return self.loops.values(y) / sizes, self.loops.jacobian(y)[:, self.free] / sizes[:, None]
+    def nearest(self, system: Map, point: Floats) -> Floats:
+        """The free coordinates moved to where the system's values are least."""
+        from singsym.polynomials.gauss_newton import Restricted, least_squares
 
-    def on_targets(self, y: Floats) -> tuple[Floats, Floats]:
-        """The same of the given values."""
-        sizes = self.target_sizes
-        values = self.sides.values(y) - self.wanted * self.scales.values(y)
-        slopes = self.sides.jacobian(y) - self.wanted[:, None] * self.scales.jacobian(y)
-        return values / sizes, slopes[:, self.free] / sizes[:, None]
+        restricted = Restricted(system, point, self.free)
+        return restricted.filled(least_squares(restricted, point[self.free]))
 
-    def on_both(self, y: Floats) -> tuple[Floats, Floats]:
-        import numpy as np
+    def scaled_slopes(self, system: Map, point: Floats) -> Floats:
+        """The slopes by the free coordinates over their sizes."""
+        return (system(point)[1] * self.sizes)[:, self.free]
 
-        (values, slopes), (others, more) = self.on_loops(y), self.on_targets(y)
-        return np.concatenate([values, others]), np.vstack([slopes, more])
+    def loop_residual(self, point: Floats) -> float:
+        """The largest loop equation."""
+        return _largest(self.loops.values(point))
 
-    def loop_residual(self, y: Floats) -> float:
-        return float(abs(self.on_loops(y)[0]).max(initial=0.0))
+    def misfit(self, point: Floats) -> float:
+        """The largest difference between a given value and that of the point."""
+        return _largest(self.targets(point)[0])
 
-    def misfit(self, y: Floats) -> float:
-        return float(abs(self.on_targets(y)[0]).max(initial=0.0))
+    def distance(self, one: Floats, other: Floats) -> float:
+        """The largest change of a variable, over its size."""
+        return _largest((one - other) / self.sizes)
 
 
 def locate(
@@ -140,33 +162,36 @@ def locate(
     """
     import numpy as np
 
+    from singsym.polynomials.gauss_newton import project
+
     problem = _Problem(equation, wanted)
     random = np.random.default_rng(seed)
     ends: list[tuple[float, Floats, Floats]] = []
     for attempt in range(_STARTS):
-        y = problem.start()
-        y[problem.free] = random.normal(size=len(problem.free)) * (0.3, 1.0, 2.0)[attempt % 3]
-        given = _step_down(problem.on_targets, _step_down(problem.on_both, y, problem.free), problem.free)
-        end = _onto_loops(problem, given)
+        start = problem.start()
+        draw = random.normal(size=len(problem.free)) * (0.3, 1.0, 2.0)[attempt % 3]
+        start[problem.free] = draw * problem.sizes[problem.free]
+        given = problem.nearest(problem.targets, problem.nearest(problem.both, start))
+        end = project(problem.loops, given, problem.free, accuracy=1e-9, cut=_SMALL)
         if end is not None:
             ends.append((problem.misfit(end), given, end))
     if not ends:
         return None
     least = min(misfit for misfit, _, _ in ends)
     near = [e for e in ends if e[0] <= max(1e-7, 1.5 * least)]
-    near = [e for e in near if is_feasible(equation, e[2] * problem.sizes, problem.sizes)] or near
+    near = [e for e in near if is_feasible(equation, e[2], problem.sizes)] or near
     misfit, given, point = min(near, key=lambda e: e[0])
     alike: list[Floats] = [point]
     for _, _, other in near:
-        if all(abs(other - seen).max() > max(1e-4, 4 * least) for seen in alike):
+        if all(problem.distance(other, seen) > max(1e-4, 4 * least) for seen in alike):
             alike.append(other)
-    rank = numerical_rank(problem.on_both(point)[1], 1e-6).rank
+    rank = numerical_rank(problem.scaled_slopes(problem.both, point), 1e-6).rank
     found = Located(
-        tuple((given * problem.sizes).tolist()),
-        tuple((point * problem.sizes).tolist()),
+        tuple(given.tolist()),
+        tuple(point.tolist()),
         problem.loop_residual(given),
         problem.loop_residual(point),
-        float(abs(point - given).max(initial=0.0)),
+        problem.distance(point, given),
         misfit,
         len(alike) - 1,
         len(problem.free) - rank,
@@ -179,15 +204,13 @@ def is_feasible(equation: VelocityEquation, point: Floats, sizes: Floats) -> boo
 
     sizes: of the coordinates.
     """
-    import numpy as np
+    from singsym.polynomials.compiled_map import CompiledMap
 
     space = equation.space
-    largest = np.maximum(abs(point), sizes)
 
     def relative(polynomials: Sequence[Polynomial]) -> Floats:
-        system = NumericalSystem(polynomials, len(point))
-        most = abs(system.coefficients) @ (largest**system.exponents).prod(axis=1)
-        return system.values(point) / _positive(most)
+        system = CompiledMap(polynomials, space.ring)
+        return system.values(point) / _positive(system.magnitudes(point, sizes))
 
     if (relative((*space.positive, *space.nonnegative)) < -1e-9).any():
         return False
@@ -211,43 +234,6 @@ def sizes_of_coordinates(equation: VelocityEquation) -> Floats:
     return found
 
 
-def _step_down(system: Callable[[Floats], tuple[Floats, Floats]], y: Floats, free: Sequence[int]) -> Floats:
-    """Levenberg-Marquardt from a point, moving the free coordinates only."""
-    import numpy as np
-
-    values, slopes = system(y)
-    damping = 1e-2
-    for _ in range(_STEPS):
-        normal = slopes.T @ slopes
-        step = np.linalg.solve(normal + damping * np.eye(len(normal)), slopes.T @ values)
-        trial = y.copy()
-        trial[free] -= step
-        fresh, fresh_slopes = system(trial)
-        if fresh @ fresh <= values @ values:
-            y, values, slopes, damping = trial, fresh, fresh_slopes, max(damping / 8, 1e-14)
-            if abs(step).max(initial=0.0) < _ROUNDING:
-                break
-        else:
-            damping *= 6
-            if damping > 1e8:
-                break
-    return y
-
-
-def _onto_loops(problem: _Problem, y: Floats) -> Floats | None:
-    """Gauss-Newton steps of least norm onto the loop equations; None where they do not arrive."""
-    import numpy as np
-
-    for _ in range(_STEPS):
-        values, slopes = problem.on_loops(y)
-        step = np.linalg.lstsq(slopes, values, rcond=1e-9)[0]
-        y = y.copy()
-        y[problem.free] -= step
-        if abs(step).max(initial=0.0) < _ROUNDING:
-            break
-    return y if np.isfinite(y).all() and problem.loop_residual(y) < 1e-9 else None
-
-
 # -- more digits -------------------------------------------------------------------------------------
 
 
@@ -257,34 +243,34 @@ def _refined(problem: _Problem, found: Located) -> Located | None:
     import numpy as np
 
     digits = mpmath.mp.dps
-    sizes = problem.sizes
+    targets, equations = problem.targets, problem.loops.polynomials
     start = [mpmath.mpf(x) for x in found.given]
     for index, value in problem.constants.items():
         start[index] = number(value)
-    wanted = [number(t.value) for t in problem.targets]
-    y = np.array(found.given) / sizes
+    wanted = [number(t.value) for t in targets.targets]
 
     def misfits(x: Sequence[Any]) -> list[Any]:
-        sides = ((t.polynomial.evaluate(x), t.scale.evaluate(x)) for t in problem.targets)
+        sides = ((t.polynomial.evaluate(x), t.scale.evaluate(x)) for t in targets.targets)
         return [
             (side - value * scale) / size
-            for (side, scale), value, size in zip(sides, wanted, problem.target_sizes, strict=True)
+            for (side, scale), value, size in zip(sides, wanted, targets.scales, strict=True)
         ]
 
     def loops(x: Sequence[Any]) -> list[Any]:
-        pairs = zip(problem.equations, problem.loop_sizes, strict=True)
+        pairs = zip(equations, problem.loops.scales, strict=True)
         return [e.evaluate(x) / size for e, size in pairs]
 
-    slopes = problem.on_both(y)[1]
+    slopes = problem.scaled_slopes(problem.both, np.array(found.given))
     start = _settled(lambda x: [*loops(x), *misfits(x)], slopes, start, problem, digits) or start
-    given = _settled(misfits, problem.on_targets(y)[1], start, problem, digits)
+    slopes = problem.scaled_slopes(targets, np.array(found.given))
+    given = _settled(misfits, slopes, start, problem, digits)
     if given is None:
         return None
-    here = np.array([float(x) for x in given]) / sizes
-    point = _settled(loops, problem.on_loops(here)[1], given, problem, digits)
+    slopes = problem.scaled_slopes(problem.loops, np.array([float(x) for x in given]))
+    point = _settled(loops, slopes, given, problem, digits)
     if point is None:
         return None
-    moves = ((a - b) / size for a, b, size in zip(point, given, sizes, strict=True))
+    moves = ((a - b) / size for a, b, size in zip(point, given, problem.sizes, strict=True))
     return replace(
         found,
         given=tuple(given),
@@ -310,7 +296,7 @@ def _settled(
     import mpmath
     import numpy as np
 
-    inverse = np.linalg.pinv(slopes, rcond=1e-9)
+    inverse = np.linalg.pinv(slopes, rcond=_SMALL)
     point = list(start)
     for _ in range(digits):
         values = system(point)

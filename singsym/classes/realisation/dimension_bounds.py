@@ -123,15 +123,15 @@ def larger_parts(system: RealSystem, dimension: int) -> Iterator[tuple[int, Witn
     """
     import numpy as np
 
-    from singsym.varieties.real.numerical.gauss_newton import Compiled
+    from singsym.polynomials.compiled_map import CompiledMap
 
     ring, equations = system.ring, system.closed_equations
-    compiled = Compiled(equations, ring)
+    compiled = CompiledMap.balanced(equations, ring)
     fixed = {c.name for c in ring.constants}
     tried: set[tuple[Polynomial, ...]] = set()
     for point in numerical_points(system, POINTS):
         current().check("parts of a larger dimension")
-        _, slopes = compiled(np.array(point))
+        slopes = compiled.jacobian(np.array(point))
         rank = numerical_rank(slopes, 1e-7).rank
         if len(ring.names) - rank <= dimension:
             continue

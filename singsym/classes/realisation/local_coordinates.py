@@ -29,6 +29,7 @@ from singsym.kinematics.placement import JointValue
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import JointRate, Mechanism, PointVelocity, Space, Twist
 from singsym.polynomials import Polynomial
+from singsym.polynomials.unit_circles import half_angle_point
 from singsym.varieties.real.dimension.independent_coordinates import WIDEST, is_missed, random_values
 
 _T = SingularityType
@@ -152,7 +153,7 @@ def _fixed(value: JointValue, random: Random) -> list[Polynomial]:
     assert value.cosine is not None
     assert value.sine is not None
     scale = value.cosine.ring.one if value.scale is None else value.scale
-    cosine, sine = (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)
+    cosine, sine = half_angle_point(t)
     return [
         value.cosine - scale * _rational(scale, cosine),
         value.sine - scale * _rational(scale, sine),

@@ -33,6 +33,7 @@ from singsym.effort.verdict import Known, Premises, Verdict, weakest
 from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.kinematics.placement import JointValue
 from singsym.polynomials import Equations
+from singsym.polynomials.unit_circles import Pair
 from singsym.varieties.real.dimension.extent import EMPTY, Extent
 from singsym.varieties.real.dimension.hyperplane_cuts import Cut, dimension_by_cuts
 from singsym.varieties.real.dimension.independent_coordinates import are_dependent
@@ -51,7 +52,6 @@ from singsym.varieties.real.points.finite_sets import real_points
 from singsym.varieties.real.proofs.critical_points import sample_points
 from singsym.varieties.real.proofs.vector_charts import Cartesian
 from singsym.varieties.real.system import RealSystem
-from singsym.varieties.unit_circles import Pair
 
 SEARCHES = 300
 """Random starts in the search for a point of a set given by independent equations."""

@@ -27,11 +27,11 @@ from singsym.effort.verdict import Certainty, Premises, Verdict
 from singsym.elimination import engines
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Equations, Polynomial
+from singsym.polynomials.unit_circles import unit_circles
 from singsym.varieties.decomposition import decompose
 from singsym.varieties.real.proofs.real_consequences import real_consequences
 from singsym.varieties.real.system import RealSystem
 from singsym.varieties.splitting import irreducible_factors
-from singsym.varieties.unit_circles import unit_circles
 
 MOST_SPLITS = 3
 """So often a part without known points is split by a variable before it is decomposed."""

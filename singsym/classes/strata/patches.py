@@ -16,12 +16,15 @@ from operator import itemgetter
 from flint import fmpq
 
 from singsym.effort.budget import current
-from singsym.elimination.linear_substitution import substitute_solved
+from singsym.elimination.linear_substitution import (
+    Substitution,
+    shortest_substitution,
+    substitute_solved,
+)
 from singsym.polynomials import Polynomial, Ring
 from singsym.polynomials.ranges import fraction, root_above
-from singsym.polynomials.remainders import division
-from singsym.varieties.splitting import factor_equations, irreducible_factors, linear_substitution
-from singsym.varieties.unit_circles import unit_circles
+from singsym.polynomials.unit_circles import unit_circles
+from singsym.varieties.splitting import factor_equations, irreducible_factors
 
 MOST_PATCHES = 64
 LONGEST = 60
@@ -45,7 +48,7 @@ class Patch:
     def restrict(self, polynomial: Polynomial) -> Polynomial:
         """The polynomial with the solved variables put in."""
         present = {n: v for n, v in self.solved.items() if n in polynomial.variables}
-        return _reduced(polynomial.substitute(present)) if present else polynomial
+        return self.ring.reduced(polynomial.substitute(present)) if present else polynomial
 
 
 def unsplit(equations: Sequence[Polynomial], ring: Ring) -> Patch:
@@ -59,9 +62,9 @@ def unsplit(equations: Sequence[Polynomial], ring: Ring) -> Patch:
     constants = {constant.name for constant in ring.constants}
     rest, made = substitute_solved(equations, [name for name in ring.names if name not in constants])
     solved: dict[str, Polynomial] = {}
-    for name, value, _ in made:
-        solved = {n: v.substitute({name: value}) for n, v in solved.items()} | {name: value}
-    return Patch(ring, {n: _reduced(v) for n, v in solved.items()}, _all_reduced(rest))
+    for step in made:
+        solved = _solved_also(solved, step)
+    return Patch(ring, solved, _all_reduced(rest))
 
 
 def patches(
@@ -98,7 +101,7 @@ def patches(
         if len(set(single)) < len(factored) or any(p.factors() != [(p, 1)] for p in single):
             waiting.append((tuple(single), solved))
             continue
-        step = linear_substitution(single)
+        step = shortest_substitution(single)
         if step is None:
             halves = _parallel(single)
             if halves:
@@ -107,9 +110,7 @@ def patches(
             patch = Patch(ring, solved, tuple(single))
             found[frozenset(patch.generators)] = patch
             continue
-        put = {step.name: step.value}
-        known = {n: _reduced(v.substitute(put)) for n, v in solved.items()} | {step.name: step.value}
-        waiting.append((_all_reduced(p.substitute(put) for p in single), known))
+        waiting.append((_all_reduced(step.apply(single)), _solved_also(solved, step)))
     left = [Patch(ring, solved, equations) for equations, solved in waiting]
     return tuple(sorted((*found.values(), *left), key=lambda p: str(p.generators)))
 
@@ -126,6 +127,12 @@ def is_combination(polynomial: Polynomial, equations: Sequence[Polynomial]) -> b
     while left and len(left) <= LONGEST:
         left = next((p for q in usable if (p := _without(left, q, True)) is not None), None)
     return left is not None and not left
+
+
+def _solved_also(solved: Mapping[str, Polynomial], step: Substitution) -> dict[str, Polynomial]:
+    """The values of solved variables with one more put in, and that one."""
+    values = step.apply((*solved.values(), step.value))
+    return dict(zip((*solved, step.name), map(step.value.ring.reduced, values), strict=True))
 
 
 def _product(factors: Sequence[Polynomial], ring: Ring) -> Polynomial:
@@ -214,7 +221,7 @@ def _halves(
         return None
     if (c, d) not in ((-b, a), (b, -a)):
         return None
-    length = _root(_reduced(a * a + b * b))
+    length = _root(ring.reduced(a * a + b * b))
     if length is None:
         return None
     return [(x2 * length - across, y2 * length + along), (x2 * length + across, y2 * length - along)]
@@ -224,15 +231,9 @@ def _names(vector: tuple[Polynomial, Polynomial]) -> tuple[str, ...]:
     return tuple(name for part in vector for name in part.variables)
 
 
-def _reduced(p: Polynomial) -> Polynomial:
-    """The remainder on division by the minimal polynomials of the ring's constants."""
-    names = (constant.name for constant in p.ring.constants)
-    return division(tuple(zip(p.ring.relations, names, strict=True))).remainder(p)
-
-
 def _all_reduced(equations: Iterable[Polynomial]) -> tuple[Polynomial, ...]:
-    """The same for equations, but not for those minimal polynomials among them."""
-    return tuple(q for p in equations if (q := p if p in p.ring.relations else _reduced(p)))
+    """Equations of low degree in the ring's constants; the minimal polynomials of these stay as they are."""
+    return tuple(q for p in equations if (q := p if p in p.ring.relations else p.ring.reduced(p)))
 
 
 def _root(square: Polynomial) -> Fraction | None:

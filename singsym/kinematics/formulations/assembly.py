@@ -10,10 +10,11 @@ from dataclasses import dataclass, field
 
 from singsym.kinematics.dimensions import Sized
 from singsym.kinematics.formulations import closure, local
-from singsym.kinematics.formulations.frames import Algebra, Body, Unplaced, shortened
+from singsym.kinematics.formulations.frames import Algebra, Body, Unplaced
 from singsym.kinematics.placement import ConfigurationSpace, Coordinates, JointValue, Placement
 from singsym.mechanism.model import Joint, Mechanism, Space
 from singsym.polynomials import Polynomial
+from singsym.polynomials.short_forms import short_forms
 
 
 @dataclass
@@ -61,8 +62,9 @@ def placement(assembly: Assembly, sized: Sized, formulation: str) -> Placement:
         else:
             screws |= closure.screws(joint, geometry, bodies[joint.first], bodies[joint.second])
     link_points = _link_points(mechanism, geometry, bodies)
-    fixed = set(assembly.circles)
-    closing = (e if e in fixed else shortened(e, assembly.circles) for e in assembly.equations)
+    circles = assembly.circles
+    short = short_forms(assembly.algebra.ring, circles).shorten
+    closing = (e if e in circles else short(e) for e in assembly.equations)
     space = ConfigurationSpace(
         ring=assembly.algebra.ring,
         equations=_distinct((*sized.relations, *closing)),

@@ -37,7 +37,7 @@ def equations(
     if kind is JointKind.R:
         return found + list(gap)
     if length is not None:
-        return found + [g - algebra.reduced(length * x) for g, x in zip(gap, first.direction(u), strict=True)]
+        return [*found, *minus(gap, algebra.combination((length,), (first.direction(u),)))]
     normals = (u,) if kind is JointKind.E else (n1, n2)
     return found + [algebra.dot(gap, first.direction(n)) for n in normals]
 
@@ -72,7 +72,7 @@ def screws(joint: Joint, geometry: local.Geometry, first: Body, second: Body) ->
         return dict(zip(joint.columns, (turn, slide), strict=True))
     if kind is JointKind.H and joint.pitch is not None:
         pitch = algebra.number(joint.pitch)
-        turn = (*turn[:3], *(algebra.reduced(m + pitch * x) for m, x in zip(turn[3:], w, strict=True)))
+        turn = (*turn[:3], *(algebra.ring.reduced(m + pitch * x) for m, x in zip(turn[3:], w, strict=True)))
     return {joint.name: turn}
 
 

@@ -5,7 +5,7 @@ Source: textbook rigid-body kinematics; natural coordinates as in Garcia de Jalo
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -38,15 +38,6 @@ class Algebra:
             found = self._known[expression] = self.convert(expression)
         return found
 
-    def reduced(self, polynomial: Polynomial) -> Polynomial:
-        """The same value, of low degree in the ring's constants."""
-        if not self.ring.constants:
-            return polynomial
-        value = polynomial.value
-        for relation in self.ring.relations:
-            value = divmod(value, relation.value)[1]
-        return Polynomial(self.ring, value)
-
     def vector(self, components: Sequence[sympy.Expr]) -> Coordinates:
         """Components as constant polynomials."""
         return tuple(self.number(x) for x in components)
@@ -71,11 +62,11 @@ class Algebra:
         for x, y in zip(a, b, strict=True):
             if x and y:
                 total = total + x * y
-        return self.reduced(total)
+        return self.ring.reduced(total)
 
     def cross(self, a: Coordinates, b: Coordinates) -> Coordinates:
         """The vector product, reduced."""
-        return tuple(self.reduced(a[i] * b[j] - a[j] * b[i]) for i, j in ((1, 2), (2, 0), (0, 1)))
+        return tuple(self.ring.reduced(a[i] * b[j] - a[j] * b[i]) for i, j in ((1, 2), (2, 0), (0, 1)))
 
     def combination(self, factors: Sequence[Polynomial], vectors: Sequence[Coordinates]) -> Coordinates:
         """sum of factors[i] * vectors[i]."""
@@ -83,7 +74,7 @@ class Algebra:
         for factor, vector in zip(factors, vectors, strict=True):
             if factor:
                 total = tuple(t + factor * v for t, v in zip(total, vector, strict=True))
-        return tuple(self.reduced(t) for t in total)
+        return tuple(self.ring.reduced(t) for t in total)
 
 
 def plus(a: Coordinates, b: Coordinates) -> Coordinates:
@@ -155,29 +146,6 @@ def turned(
     for j in range(3):
         e = algebra.axes[j]
         skew = algebra.cross(u, e)
-        rotated = tuple(
-            algebra.reduced(cosine * (e[i] - u[i] * u[j]) + sine * skew[i] + u[i] * u[j]) for i in range(3)
-        )
-        columns.append(algebra.combination(rotated, frame))
+        rotated = (cosine * (e[i] - u[i] * u[j]) + sine * skew[i] + u[i] * u[j] for i in range(3))
+        columns.append(algebra.combination(tuple(map(algebra.ring.reduced, rotated)), frame))
     return tuple(columns)
-
-
-def circle(cosine: Polynomial, sine: Polynomial) -> Polynomial:
-    """c^2 + s^2 - 1."""
-    return cosine * cosine + sine * sine - 1
-
-
-def shortened(polynomial: Polynomial, circles: Iterable[Polynomial]) -> Polynomial:
-    """The same value on the circles c^2 + s^2 = 1, in fewer terms where one division by a circle gives them.
-
-    >>> R = Ring(("c", "s", "x"))
-    >>> c, s, x = R.gens
-    >>> shortened(c**2 * x + s**2 * x, [circle(c, s)])
-    x
-    """
-    best = polynomial.value
-    for one in circles:
-        if len(best) > 1:
-            rest = divmod(best, one.value)[1]
-            best = rest if len(rest) < len(best) else best
-    return Polynomial(polynomial.ring, best)

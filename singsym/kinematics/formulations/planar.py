@@ -9,11 +9,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from singsym.kinematics.dimensions import Sized, dimensions
-from singsym.kinematics.formulations.frames import shortened
 from singsym.kinematics.formulations.planar_plan import Pin, Plan, plan
 from singsym.kinematics.placement import ConfigurationSpace, Coordinates, JointValue, Placement
 from singsym.mechanism.model import Joint, JointKind, Mechanism
 from singsym.polynomials import Polynomial
+from singsym.polynomials.short_forms import short_forms
+from singsym.polynomials.unit_circles import Pair, circle
 
 
 @dataclass(frozen=True)
@@ -68,8 +69,9 @@ class _Placing:
                 self.equations += self._guide(joint)
         for link in self.mechanism.links:
             self._fill_points(link.name)
-        circles = [c**2 + s**2 - 1 for c, s in self._directions()]
-        closing = (e if e in circles else shortened(self.sized.reduced(e), circles) for e in self.equations)
+        circles = tuple(circle(*map(self.ring.gen, pair)) for pair in self._directions())
+        short = short_forms(self.ring, circles).shorten
+        closing = (e if e in circles else short(self.ring.reduced(e)) for e in self.equations)
         space = ConfigurationSpace(
             self.ring,
             tuple(dict.fromkeys(e for e in (*self.sized.relations, *closing) if e)),
@@ -86,8 +88,9 @@ class _Placing:
             values |= self._value(joint)
         return Placement(space, screws, self.points, (), values)
 
-    def _directions(self) -> set[tuple[Polynomial, Polynomial]]:
-        return {(self.ring.gen(g[0]), self.ring.gen(g[1])) for g in self.plan.directed.values() if g}
+    def _directions(self) -> tuple[Pair, ...]:
+        """The names of each heading's cosine and sine."""
+        return tuple(dict.fromkeys(filter(None, self.plan.directed.values())))
 
     # -- pins and links ---------------------------------------------------------------------------
 
@@ -104,9 +107,9 @@ class _Placing:
         for link, group in self.plan.directed.items():
             c, s = (one, zero) if group is None else (self.ring.gen(name) for name in group)
             x, y = Heading(c, s, one).turn(tuple(map(self.sized.number, self.plan.turns[link])))
-            self.headings[link] = Heading(self.sized.reduced(x), self.sized.reduced(y), one)
+            self.headings[link] = Heading(self.ring.reduced(x), self.ring.reduced(y), one)
             if group is not None:
-                self.equations.append(c**2 + s**2 - 1)
+                self.equations.append(circle(c, s))
         for pin, names in self.plan.free_pins.items():
             self.pins[pin] = (self.ring.gen(names[0]), self.ring.gen(names[1]))
         for name in self.mechanism.link(self.mechanism.ground).points:
@@ -155,7 +158,7 @@ class _Placing:
             d = (b[0] - a[0], b[1] - a[1])
             P, Q = self.pins[self.plan.pin_of[link, p]], self.pins[self.plan.pin_of[link, q]]
             D = (Q[0] - P[0], Q[1] - P[1])
-            square = self.sized.reduced(d[0] ** 2 + d[1] ** 2)
+            square = self.ring.reduced(d[0] ** 2 + d[1] ** 2)
             self.equations.append(D[0] ** 2 + D[1] ** 2 - square)
             self.headings[link] = Heading(d[0] * D[0] + d[1] * D[1], d[0] * D[1] - d[1] * D[0], square)
             self.points[link, p], self.points[link, q] = P, Q
@@ -231,7 +234,5 @@ class _Placing:
             b = two.turn(self._axis(joint.second, joint.reference[1]))
         cosine, sine = a[0] * b[0] + a[1] * b[1], a[0] * b[1] - a[1] * b[0]
         return {
-            joint.name: JointValue(
-                self.sized.reduced(cosine), self.sized.reduced(sine), one.scale * two.scale
-            )
+            joint.name: JointValue(self.ring.reduced(cosine), self.ring.reduced(sine), one.scale * two.scale)
         }

@@ -10,10 +10,11 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from singsym.kinematics.formulations import local
-from singsym.kinematics.formulations.frames import Algebra, Body, circle, composed, plus, rigid, turned
+from singsym.kinematics.formulations.frames import Algebra, Body, composed, minus, plus, rigid, turned
 from singsym.kinematics.placement import Coordinates, JointValue
 from singsym.mechanism.model import Joint, JointKind, Mechanism
 from singsym.polynomials import Polynomial
+from singsym.polynomials.unit_circles import circle
 
 _ROTATIONS = {JointKind.R: 1, JointKind.H: 1, JointKind.C: 1, JointKind.U: 2, JointKind.E: 1}
 _LENGTHS = {JointKind.P: 1, JointKind.H: 1, JointKind.C: 1, JointKind.E: 2}
@@ -273,7 +274,7 @@ def _child(
         sign = 1 if step.forward else -1
         position = plus(position, tuple(sign * x for x in shift))
     offset = turned_child.direction(there)
-    return rigid(algebra, tuple(algebra.reduced(p - o) for p, o in zip(position, offset, strict=True)), frame)
+    return rigid(algebra, tuple(map(algebra.ring.reduced, minus(position, offset))), frame)
 
 
 def _difference(cosine: Polynomial, sine: Polynomial, base: _Base, sense: int) -> JointValue:

@@ -16,11 +16,12 @@ import numpy as np
 from singsym.classes.result import Classification, ClassResult, Locus
 from singsym.effort.budget import Budget
 from singsym.kinematics.placement import JointValue
-from singsym.kinematics.sampling import NumericalSystem, project
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import JointRate
 from singsym.output.figures.style import DASHES, INK, PALE, SERIES, Floats, Picture, canvas
 from singsym.polynomials import Polynomial
+from singsym.polynomials.compiled_map import CompiledMap
+from singsym.polynomials.gauss_newton import project
 from singsym.varieties.real.curves.real_curve import real_curve
 
 _VISIBLE = 1e-3
@@ -54,7 +55,7 @@ def trace_loci(classification: Classification, seconds: float | None = 20.0) -> 
     for locus in classification.loci:
         if locus.dimension == 1 and not space.parameters:
             curve = real_curve((*space.equations, locus.factor), budget=Budget(seconds), drawing=True)
-            system = NumericalSystem((*space.equations, locus.factor), len(space.ring.names))
+            system = CompiledMap.balanced((*space.equations, locus.factor), space.ring)
             full = [
                 tuple(smooth(_with_constants(classification, line), system) for line in c.polylines)
                 for c in curve.components
@@ -73,7 +74,7 @@ def _with_constants(classification: Classification, line: Floats) -> Floats:
     return np.array(full).T
 
 
-def smooth(line: Floats, system: NumericalSystem, halvings: int = 4) -> Floats:
+def smooth(line: Floats, system: CompiledMap, halvings: int = 4) -> Floats:
     """A polyline on the curve of a system with vertices added, until it bends less than can be seen.
 
     Vertices are the ends of Gauss-Newton from the chords' midpoints; what does not end near by is left out.
@@ -127,12 +128,12 @@ class Coordinate:
         return len(self._polynomials) == 2
 
     @cached_property
-    def _system(self) -> NumericalSystem:
-        return NumericalSystem(self._polynomials, len(self.equation.space.ring.names))
+    def _system(self) -> CompiledMap:
+        return CompiledMap(self._polynomials, self.equation.space.ring)
 
     def at(self, points: Iterable[Floats]) -> Floats:
         """Its values at points given in the order of the ring's names."""
-        rows = np.array([self._system.values(p) for p in points])
+        rows = self._system.values(np.array(list(points)))
         if self.is_angle:
             found: Floats = np.arctan2(rows[:, 1], rows[:, 0])
             return found

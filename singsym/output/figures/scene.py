@@ -15,11 +15,12 @@ import numpy as np
 from singsym.kinematics.formulations import place
 from singsym.kinematics.loops import path
 from singsym.kinematics.placement import Placement
-from singsym.kinematics.sampling import NumericalSystem, sample_configurations
+from singsym.kinematics.sampling import sample_configurations
 from singsym.kinematics.velocity import VelocityEquation, velocity_equation
 from singsym.mechanism.model import Joint, JointKind, JointRate, Mechanism, Space
 from singsym.output.figures.style import Floats
 from singsym.polynomials import Polynomial
+from singsym.polynomials.compiled_map import CompiledMap
 
 SAMPLES = 24
 """Of so many random configurations the one with the most open shape is drawn."""
@@ -171,15 +172,15 @@ class Stage:
         return tuple(self.placement.screws)
 
     @cached_property
-    def _places(self) -> NumericalSystem:
+    def _places(self) -> CompiledMap:
         entries = [c for place in self._used.values() for c in place]
         entries += [c for place in self.placement.space.points.values() for c in place]
-        return NumericalSystem(entries, len(self.placement.space.ring.names))
+        return CompiledMap(entries, self.placement.space.ring)
 
     @cached_property
-    def _screws(self) -> NumericalSystem:
+    def _screws(self) -> CompiledMap:
         entries = [c for screw in self.placement.screws.values() for c in screw]
-        return NumericalSystem(entries, len(self.placement.space.ring.names))
+        return CompiledMap(entries, self.placement.space.ring)
 
     def sample(self, seed: int = 0) -> Floats:
         """Some open configuration, found numerically; raises `ValueError` where none was found."""

@@ -9,9 +9,10 @@ import sympy
 from singsym.classes.configuration.at import at, at_equation
 from singsym.classes.taxonomy.types import SingularityType as T
 from singsym.kinematics.own_equation import from_sympy
-from singsym.kinematics.sampling import numerical_matrix, sample_configurations
+from singsym.kinematics.sampling import sample_configurations
 from singsym.kinematics.velocity import velocity_equation
 from singsym.mechanism import MechanismError, load
+from singsym.polynomials.compiled_map import numerical_matrix
 
 
 def test_a_flat_linkage_is_exact():

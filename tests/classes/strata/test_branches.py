@@ -23,6 +23,7 @@ from singsym.classes.strata.search import search
 from singsym.classes.taxonomy.types import feasible_classes
 from singsym.effort.verdict import Known, Verdict
 from singsym.mechanism import load
+from singsym.output.plain_data import classification_data
 from singsym.polynomials import PolynomialMatrix, Ring
 from singsym.varieties.real.numerical.sampling import numerical_points
 from singsym.varieties.real.system import RealSystem
@@ -30,7 +31,7 @@ from singsym.varieties.real.system import RealSystem
 
 def plain(result: Classification) -> dict[str, object]:
     """All that a classification says, without its time."""
-    return {key: value for key, value in result.as_json().items() if key != "seconds"}
+    return {key: value for key, value in classification_data(result).items() if key != "seconds"}
 
 
 @pytest.fixture(scope="module")

@@ -10,10 +10,11 @@ import pytest
 from singsym.classes import classify as module
 from singsym.classes.classify import classify
 from singsym.classes.strata.reflections import IDENTITY, image, reflections
-from singsym.kinematics.sampling import numerical_matrix, sample_configurations
+from singsym.kinematics.sampling import sample_configurations
 from singsym.kinematics.velocity import velocity_equation
 from singsym.mechanism import load
 from singsym.polynomials import Ring
+from singsym.polynomials.compiled_map import numerical_matrix
 from singsym.varieties.real.points.boxed_point import boxed_point
 from singsym.varieties.real.points.certified_point import frozen_points
 from singsym.varieties.real.system import RealSystem

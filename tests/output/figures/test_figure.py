@@ -9,7 +9,7 @@ from matplotlib.colors import to_rgba
 from singsym.classes.classify import classify
 from singsym.classes.result import Classification
 from singsym.classes.taxonomy.types import SingularityType as T
-from singsym.kinematics.sampling import NumericalSystem, numerical_matrix, sample_configurations
+from singsym.kinematics.sampling import sample_configurations
 from singsym.mechanism import load
 from singsym.mechanism.model import Space
 from singsym.output.figures.curves import Coordinate, plot_curves, smooth, trace_loci
@@ -20,6 +20,7 @@ from singsym.output.figures.style import INPUT, PAPER
 from singsym.output.figures.view import seen, viewpoint
 from singsym.output.strata_graph import plot_strata, strata_graph
 from singsym.polynomials import Ring
+from singsym.polynomials.compiled_map import CompiledMap, numerical_matrix
 
 
 @pytest.fixture(scope="module")
@@ -105,13 +106,13 @@ def test_a_polygon_in_a_circle_becomes_round() -> None:
     x, y = Ring(("x", "y")).gens
     angles = np.linspace(0, 2 * np.pi, 7)
     polygon = np.array([np.cos(angles), np.sin(angles)]).T
-    line = smooth(polygon, NumericalSystem([x**2 + y**2 - 1], 2))
+    line = smooth(polygon, CompiledMap.balanced([x**2 + y**2 - 1], x.ring))
     assert np.hypot(*line.T) == pytest.approx(1)
     steps = np.diff(np.unwrap(np.arctan2(line[:, 1], line[:, 0])))
     assert (steps > 0).all()
     assert steps.sum() == pytest.approx(2 * np.pi)
     assert 1 - np.cos(steps / 2).min() < 0.002
-    assert len(smooth(line[:3], NumericalSystem([x], 2))) == 3, "what lands far away is left out"
+    assert len(smooth(line[:3], CompiledMap.balanced([x], x.ring))) == 3, "what lands far away is left out"
 
 
 def test_a_curve_that_stays_over_a_point_is_marked_there() -> None:

@@ -1,4 +1,4 @@
-"""Vectorised evaluation of polynomial maps, in doubles and in balls that enclose all rounding errors.
+"""Enclosures of polynomial maps at many points or boxes at once, in balls that hold all rounding errors.
 
 Source: S. M. Rump, Fast and parallel interval arithmetic, BIT 39 (1999) 534-554 (midpoint-radius matrices).
 """
@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from singsym.polynomials import Polynomial, Ring
+from singsym.polynomials.compiled_map import CompiledMap, MonomialTable
 
 Array = NDArray[np.float64]
 
@@ -70,50 +71,29 @@ class Balls:
         return Balls(np.swapaxes(self.mid, -1, -2), np.swapaxes(self.rad, -1, -2))
 
 
-class PolynomialMap:
-    """Polynomials of one ring, evaluated at many points at once through a shared table of monomials."""
+class EnclosedMap:
+    """Polynomials of one ring, enclosed at many points or over many boxes at once; (B, variables) each."""
 
     def __init__(self, polynomials: Sequence[Polynomial], variables: int) -> None:
-        tables = [{m: Fraction(int(c.p), int(c.q)) for m, c in p.terms()} for p in polynomials]
-        monomials = _closed_under_division({m for table in tables for m in table}, variables)
-        index = {m: k for k, m in enumerate(monomials)}
-        self.coefficients: Array = np.zeros((len(monomials), len(tables)))
+        tables = [
+            {tuple(map(int, m)): Fraction(int(c.p), int(c.q)) for m, c in p.terms()} for p in polynomials
+        ]
+        self._monomials = MonomialTable((m for table in tables for m in table), variables)
+        index = self._monomials.index
+        self.coefficients: Array = np.zeros((len(index), len(tables)))
         self._precise = np.zeros(self.coefficients.shape, dtype=np.longdouble)
         for column, table in enumerate(tables):
             for monomial, c in table.items():
                 self.coefficients[index[monomial], column] = high = _to_float(c)
                 low = float(c - Fraction(high))
                 self._precise[index[monomial], column] = np.longdouble(high) + np.longdouble(low)
-        self._levels = []
-        start = 1
-        while start < len(monomials):
-            degree = sum(monomials[start])
-            stop = start
-            while stop < len(monomials) and sum(monomials[stop]) == degree:
-                stop += 1
-            parents, factors = [], []
-            for m in monomials[start:stop]:
-                i = _last_variable(m)
-                parents.append(index[_divided(m, i)])
-                factors.append(i)
-            self._levels.append((start, stop, np.array(parents), np.array(factors)))
-            start = stop
-
-    def values(self, points: Array) -> Array:
-        """Values at points (B, variables) in double arithmetic: (B, polynomials)."""
-        table = np.ones((len(points), len(self.coefficients)))
-        for start, stop, parents, factors in self._levels:
-            table[:, start:stop] = table[:, parents] * points[:, factors]
-        return table @ self.coefficients
 
     def precise(self, points: Array) -> Balls:
         """Enclosures of the values at points taken as exact, in long doubles where the platform has them."""
-        table = np.ones((len(points), len(self.coefficients)), dtype=np.longdouble)
-        for start, stop, parents, factors in self._levels:
-            table[:, start:stop] = table[:, parents] * points[:, factors]
+        table = np.ascontiguousarray(self._monomials.at(points.T, np.longdouble).T)
         mid = np.asarray(table @ self._precise, dtype=np.float64)
         size = np.asarray(np.abs(table) @ np.abs(self._precise), dtype=np.float64)
-        terms = len(self.coefficients) + 4 * len(self._levels) + 8
+        terms = len(self.coefficients) + 4 * len(self._monomials.levels) + 8
         rad = (terms * _LONG_EPSILON * size + EPSILON * np.abs(mid)) * (1 + 16 * EPSILON) + TINY
         return Balls(mid, rad)
 
@@ -121,7 +101,7 @@ class PolynomialMap:
         """Enclosures of the values over boxes (B, variables): (B, polynomials)."""
         shape = (len(points.mid), len(self.coefficients))
         mid, rad = np.ones(shape), np.zeros(shape)
-        for start, stop, parents, factors in self._levels:
+        for start, stop, parents, factors in self._monomials.levels:
             a, b, s = mid[:, parents], points.mid[:, factors], points.rad[:, factors]
             r = rad[:, parents]
             product = a * b
@@ -150,18 +130,18 @@ class System:
         return tuple(p / max(abs(c) for _, c in p.terms()) for p in self.equations if p)
 
     @cached_property
-    def map(self) -> PolynomialMap:
-        """The equations as a compiled map."""
-        return PolynomialMap(self.scaled, len(self.ring.names))
+    def map(self) -> EnclosedMap:
+        """The equations, with enclosures."""
+        return EnclosedMap(self.scaled, len(self.ring.names))
 
     @cached_property
-    def _gradients(self) -> list[Polynomial]:
-        return [p.derivative(name) for p in self.scaled for name in self.ring.names]
+    def _derivatives(self) -> EnclosedMap:
+        gradients = [p.derivative(name) for p in self.scaled for name in self.ring.names]
+        return EnclosedMap(gradients, len(self.ring.names))
 
     @cached_property
-    def derivative_map(self) -> PolynomialMap:
-        """Their derivatives as a compiled map."""
-        return PolynomialMap(self._gradients, len(self.ring.names))
+    def _in_doubles(self) -> CompiledMap:
+        return CompiledMap(self.scaled, self.ring)
 
     @cached_property
     def _taylor(self) -> _Taylor:
@@ -173,13 +153,12 @@ class System:
 
     def jacobian(self, points: Array) -> Array:
         """(B, equations, variables)."""
-        r, n = len(self.scaled), len(self.ring.names)
-        return self.derivative_map.values(points).reshape(len(points), r, n)
+        return self._in_doubles.jacobian(points)
 
     def jacobian_balls(self, points: Balls) -> Balls:
         """(B, equations, variables), over boxes."""
         r, n = len(self.scaled), len(self.ring.names)
-        return self.derivative_map.balls(points).reshape(len(points.mid), r, n)
+        return self._derivatives.balls(points).reshape(len(points.mid), r, n)
 
     def hessian_balls(self, points: Balls) -> Balls:
         """(B, equations, variables * variables), over boxes."""
@@ -210,7 +189,7 @@ class _Taylor:
                         entries.append((target, len(coefficients), factor))
                 coefficients.append(coefficient)
         self._size = len(equations) * variables**2
-        self._map = PolynomialMap(coefficients, variables)
+        self._map = EnclosedMap(coefficients, variables)
         self._constant = np.zeros((len(coefficients), self._size))
         for target, source, factor in entries:
             self._constant[source, target] = factor
@@ -263,21 +242,3 @@ def _to_float(number: Fraction) -> float:
             f"coefficients differ by more than 250 orders of magnitude ({value:g} after scaling)"
         )
     return value
-
-
-def _last_variable(monomial: tuple[int, ...]) -> int:
-    return max(i for i, e in enumerate(monomial) if e)
-
-
-def _divided(monomial: tuple[int, ...], i: int) -> tuple[int, ...]:
-    return (*monomial[:i], monomial[i] - 1, *monomial[i + 1 :])
-
-
-def _closed_under_division(monomials: set[tuple[int, ...]], variables: int) -> list[tuple[int, ...]]:
-    """All prefixes of the monomials, by degree, the monomial 1 first."""
-    closed = {(0,) * variables}
-    for m in monomials:
-        while m not in closed:
-            closed.add(m)
-            m = _divided(m, _last_variable(m))
-    return sorted(closed, key=lambda m: (sum(m), m))

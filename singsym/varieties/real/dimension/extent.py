@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
 
 from singsym.effort.verdict import Certainty, weakest
 
@@ -44,17 +43,6 @@ class Extent:
     def resting(self) -> str:
         """That a bound from above is not proven, in words; "" where it is."""
         return "" if self.bounded == "proven" else "that it is no larger rests on random primes"
-
-    def as_json(self) -> dict[str, Any]:
-        """The dimension, None where it is not known, with what is known of it then and why no more is.
-
-        >>> Extent(1, None, open="out of time").as_json()
-        {'dimension': None, 'at_least': 1, 'dimension_reason': 'out of time'}
-        """
-        found: dict[str, Any] = {"dimension": self.dimension}
-        if self.dimension is None and self.at_least >= 0:
-            return {**found, "at_least": self.at_least, "dimension_reason": self.open}
-        return {**found, "dimension_reason": self.resting} if self.resting else found
 
 
 UNKNOWN = Extent()

@@ -10,11 +10,10 @@ Source: Zariski, Samuel, Commutative Algebra II (1960), VII.7; Schwartz, J. ACM 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from fractions import Fraction
 from itertools import combinations
 from math import comb
 from random import Random
-
-from flint import fmpq
 
 from singsym.effort import chance
 from singsym.effort.budget import current
@@ -23,9 +22,9 @@ from singsym.elimination.elimination_orders import without_zeros_of
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.modulo_primes import residues
 from singsym.polynomials import Polynomial, Ring
+from singsym.polynomials.unit_circles import Pair, half_angle_point, unit_circles
 from singsym.varieties.real.system import RealSystem
 from singsym.varieties.splitting import used_ring
-from singsym.varieties.unit_circles import Pair, unit_circles
 
 MOST_CHOICES = 300
 """Sets with more choices of coordinates are not looked at."""
@@ -90,12 +89,9 @@ def is_missed(
 
 def random_values(ring: Ring, names: tuple[str, ...], random: Random) -> Iterator[tuple[str, Polynomial]]:
     """A random rational number, or the rational point of the circle with it for the half-angle's tangent."""
-    t = fmpq(random.randint(1, WIDEST), random.randint(1, WIDEST))
-    if len(names) == 1:
-        yield names[0], ring.constant(t)
-    else:
-        yield names[0], ring.constant((1 - t * t) / (1 + t * t))
-        yield names[1], ring.constant(2 * t / (1 + t * t))
+    t = Fraction(random.randint(1, WIDEST), random.randint(1, WIDEST))
+    values = (t,) if len(names) == 1 else half_angle_point(t)
+    yield from zip(names, map(ring.constant, values), strict=True)
 
 
 def _coordinates(ring: Ring, circles: Iterable[Pair]) -> list[tuple[str, ...]]:

@@ -43,13 +43,14 @@ def numerical_points(system: RealSystem, count: int = 3) -> Points:
 def _numerical_points(system: RealSystem) -> Iterator[Point]:
     import numpy
 
-    from singsym.varieties.real.numerical.gauss_newton import Compiled, approach, gauss_newton
+    from singsym.polynomials.compiled_map import CompiledMap
+    from singsym.polynomials.gauss_newton import approach, gauss_newton
 
     if strikes():
         return
     ring = system.ring
     extended = system.with_slack
-    compiled = Compiled(extended.closed_equations, extended.ring)
+    compiled = CompiledMap.balanced(extended.closed_equations, extended.ring)
     random = numpy.random.default_rng(0)
     for number in STARTS:
         starts = random.normal(size=(number, compiled.size)) * 2 * compiled.sizes
@@ -86,14 +87,13 @@ def numerical_codimension(system: RealSystem) -> tuple[int, Point] | None:
     import numpy
 
     from singsym.kinematics.numerical_rank import numerical_rank
-    from singsym.varieties.real.numerical.gauss_newton import Compiled
+    from singsym.polynomials.compiled_map import CompiledMap
 
     equations = system.closed_equations
-    compiled = Compiled(equations, system.ring)
+    compiled = CompiledMap.balanced(equations, system.ring)
     best: tuple[int, Point] | None = None
     for point in islice(_numerical_points(system), MOST_POINTS):
-        _, slope = compiled(numpy.array(point))
-        rank = numerical_rank(slope * compiled.sizes, 1e-7).rank
+        rank = numerical_rank(compiled.jacobian(numpy.array(point)) * compiled.sizes, 1e-7).rank
         if best is None or rank > best[0]:
             best = rank, point
         if rank == len(equations):

@@ -22,14 +22,14 @@ from singsym.effort.chaos import strikes
 from singsym.effort.verdict import Certainty, Known
 from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.polynomials import Polynomial, Ring
+from singsym.polynomials.unit_circles import half_angle_point, unit_circles
 from singsym.varieties.real.points.boxed_point import BoxPoint, boxed_point
 from singsym.varieties.real.points.exact_point import RealPoint
 from singsym.varieties.real.points.finite_sets import pinned, real_points
 from singsym.varieties.real.system import RealSystem
-from singsym.varieties.unit_circles import unit_circles
 
 if TYPE_CHECKING:
-    from singsym.varieties.real.numerical.gauss_newton import Compiled, Vector
+    from singsym.polynomials.compiled_map import Floats
 
 # denominators tried for the frozen coordinates, nice values first
 _DENOMINATORS = (1, 2, 8, 64)
@@ -124,18 +124,19 @@ def find_witness(
 # -- numerical samples -------------------------------------------------------------------------------
 
 
-def samples(system: RealSystem, equations: Sequence[Polynomial], seed: int, tries: int) -> Iterator[Vector]:
+def samples(system: RealSystem, equations: Sequence[Polynomial], seed: int, tries: int) -> Iterator[Floats]:
     """Numerical points of the system; inequalities enter with slack variables p = s^2."""
     import numpy as np
 
-    from singsym.varieties.real.numerical.gauss_newton import Compiled, gauss_newton
+    from singsym.polynomials.compiled_map import CompiledMap
+    from singsym.polynomials.gauss_newton import gauss_newton
 
     ring = system.ring
     extended = replace(system, equations=tuple(equations)).with_slack
     wide = extended.ring
-    compiled = Compiled(extended.equations, wide)
+    compiled = CompiledMap.balanced(extended.equations, wide)
     sizes = tuple(map(float, compiled.sizes[: len(ring.names)]))
-    excluded = [Compiled(group, ring, sizes) for group in system.exclusions]
+    excluded = [CompiledMap.balanced(group, ring, sizes) for group in system.exclusions]
     random = np.random.default_rng(seed)
     fixed = {ring.index(c.name): float((c.low + c.high) / 2) for c in ring.constants}
     for turn in range(tries):
@@ -148,36 +149,38 @@ def samples(system: RealSystem, equations: Sequence[Polynomial], seed: int, trie
         x = x[: len(ring.names)]
         # points that are not accurate, near a double root, come after others
         least = 1e-3 if 2 * turn < tries else 1e-6
-        if all(float(np.max(np.abs(g(x)[0]))) > least for g in excluded):
+        if all(float(np.max(np.abs(g.values(x)))) > least for g in excluded):
             yield x
 
 
-def _landed(equations: Sequence[Polynomial], ring: Ring, near: Sequence[Sequence[float]]) -> Iterator[Vector]:
+def _landed(equations: Sequence[Polynomial], ring: Ring, near: Sequence[Sequence[float]]) -> Iterator[Floats]:
     """Numerical solutions near some points."""
     import numpy as np
 
-    from singsym.varieties.real.numerical.gauss_newton import Compiled, gauss_newton
+    from singsym.polynomials.compiled_map import CompiledMap
+    from singsym.polynomials.gauss_newton import gauss_newton
 
     for point in near:
-        x = gauss_newton(Compiled(equations, ring), np.array(point))
+        x = gauss_newton(CompiledMap.balanced(equations, ring), np.array(point))
         if x is not None:
             yield x
 
 
 def frozen_values(
-    system: RealSystem, equations: Sequence[Polynomial], sample: Vector, dimension: int | None
+    system: RealSystem, equations: Sequence[Polynomial], sample: Floats, dimension: int | None
 ) -> Iterator[dict[str, Fraction]]:
     """Rationals for as many coordinates as leave finitely many points, coarse ones first.
 
     A coordinate of a unit vector is held with the other one, at a rational point of the circle.
     """
     from singsym.kinematics.numerical_rank import numerical_rank
-    from singsym.varieties.real.numerical.gauss_newton import Compiled, dependent_columns, gauss_newton
+    from singsym.polynomials.compiled_map import CompiledMap
+    from singsym.polynomials.gauss_newton import Restricted, gauss_newton
+    from singsym.varieties.real.numerical.dependent_columns import dependent_columns
 
     ring = system.ring
-    compiled = Compiled(equations, ring)
-    _, slope = compiled(sample)
-    slope = slope * compiled.sizes
+    compiled = CompiledMap.balanced(equations, ring)
+    slope = compiled.jacobian(sample) * compiled.sizes
     rank = numerical_rank(slope, 1e-7).rank if dimension is None else len(ring.names) - dimension
     dependent = dependent_columns(slope, rank, [ring.index(c.name) for c in ring.constants])
     free = [k for k in range(len(ring.names)) if k not in dependent]
@@ -194,10 +197,10 @@ def frozen_values(
         if tuple(values.values()) in seen:
             continue
         seen.add(tuple(values.values()))
-        held = [ring.index(name) for name in values]
-        others = [k for k in range(len(ring.names)) if k not in held]
-        rest = _Restricted(compiled, sample, held, others, tuple(values.values()))
-        if gauss_newton(rest, sample[others]) is not None:
+        held = sample.copy()
+        held[[ring.index(name) for name in values]] = [float(v) for v in values.values()]
+        others = [k for k, name in enumerate(ring.names) if name not in values]
+        if gauss_newton(Restricted(compiled, held, others), sample[others]) is not None:
             yield values
 
 
@@ -223,31 +226,8 @@ def _on_circle(c: float, s: float, denominator: int) -> tuple[Fraction, Fraction
     # the angle from the nearer end of the diameter
     end = 1 if c >= 0 else -1
     t = _rounded(s / (1 + abs(c)), denominator)
-    return end * (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)
-
-
-class _Restricted:
-    """A compiled system with some coordinates held at rationals."""
-
-    def __init__(
-        self,
-        compiled: Compiled,
-        sample: Vector,
-        free: Sequence[int],
-        dependent: Sequence[int],
-        values: Sequence[Fraction],
-    ) -> None:
-        self.compiled = compiled
-        self.sizes = compiled.sizes[list(dependent)]
-        self.dependent = list(dependent)
-        self.whole = sample.copy()
-        for k, v in zip(free, values, strict=True):
-            self.whole[k] = float(v)
-
-    def __call__(self, x: Vector) -> tuple[Vector, Vector]:
-        self.whole[self.dependent] = x
-        value, slope = self.compiled(self.whole)
-        return value, slope[:, self.dependent]
+    cosine, sine = half_angle_point(t)
+    return end * cosine, sine
 
 
 # -- certificates ------------------------------------------------------------------------------------
@@ -257,7 +237,7 @@ def _certified(
     system: RealSystem,
     equations: Sequence[Polynomial],
     values: dict[str, Fraction],
-    sample: Vector,
+    sample: Floats,
     budget: Budget,
 ) -> RealPoint | BoxPoint | None:
     """An exact point with the frozen values, nearest to the sample; a box for a large square system."""
@@ -281,7 +261,7 @@ def _bezout(equations: Sequence[Polynomial], values: dict[str, Fraction]) -> int
 
 
 def _certified_box(
-    system: RealSystem, equations: Sequence[Polynomial], values: dict[str, Fraction], sample: Vector
+    system: RealSystem, equations: Sequence[Polynomial], values: dict[str, Fraction], sample: Floats
 ) -> BoxPoint | None:
     point = boxed_point(system.ring, equations, values, [float(v) for v in sample])
     try:

@@ -19,10 +19,10 @@ from singsym.effort.verdict import Known
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.memo import remember
 from singsym.polynomials import Polynomial
+from singsym.polynomials.unit_circles import Pair, circle
 from singsym.varieties.irreducibility import relation
 from singsym.varieties.real.points.roots import has_real_root
 from singsym.varieties.splitting import used_ring
-from singsym.varieties.unit_circles import Pair, circle
 
 MOST_TERMS, MOST_CIRCLES = 60, 8
 _TRIES = 100
@@ -70,7 +70,7 @@ def _searched(f: Polynomial, circles: tuple[Pair, ...]) -> Known[tuple[Polynomia
     ring = f.ring
     derivatives = [ring.gen(x) * f.derivative(y) - ring.gen(y) * f.derivative(x) for x, y in circles]
     fixed = [p for p in ring.relations if {*p.variables} & {*f.variables}]
-    equations = [*(circle(ring, pair) for pair in circles), *(p for p in derivatives if p), *fixed]
+    equations = [*(circle(*map(ring.gen, pair)) for pair in circles), *(p for p in derivatives if p), *fixed]
     small = used_ring(ring, equations)
     ideal = Ideal(small, tuple(map(small.convert, equations)))
     values = None

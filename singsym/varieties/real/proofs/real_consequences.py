@@ -11,10 +11,10 @@ from collections.abc import Iterator, Sequence
 from singsym.effort.verdict import Known, Premises
 from singsym.polynomials import Polynomial
 from singsym.polynomials.sums_of_squares import sum_of_squares
+from singsym.polynomials.unit_circles import unit_circles
 from singsym.varieties.real.bounds_of_solutions import extreme_values, sign_within, solution_bounds
 from singsym.varieties.real.proofs.extrema_on_tori import extreme_zeros
 from singsym.varieties.real.system import RealSystem
-from singsym.varieties.unit_circles import unit_circles
 
 
 def real_consequences(

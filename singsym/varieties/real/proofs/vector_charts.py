@@ -19,13 +19,15 @@ from singsym.effort.verdict import Known, Premises, Verdict
 from singsym.elimination.elimination_orders import without_zeros_of
 from singsym.elimination.engines import EngineUnavailable
 from singsym.elimination.ideal import Ideal
+from singsym.elimination.linear_substitution import shortest_substitution
 from singsym.elimination.modulo_primes import Residues, residues
 from singsym.polynomials import Polynomial, Ring
 from singsym.polynomials.remainders import remainder
+from singsym.polynomials.short_forms import short_forms
+from singsym.polynomials.unit_circles import Pair, circle, unit_circles
 from singsym.varieties.real.numerical.sampling import is_off, numerical_points
 from singsym.varieties.real.system import RealSystem
-from singsym.varieties.splitting import linear_substitution, used_ring
-from singsym.varieties.unit_circles import Pair, circle, unit_circles
+from singsym.varieties.splitting import used_ring
 
 LONGEST_SUM = 12
 """Sums of squares with more terms are not used as exclusions."""
@@ -305,12 +307,12 @@ def _size(equations: Group) -> int:
 def _short_exclusions(system: RealSystem) -> tuple[Group, ...]:
     """Short exclusions of several polynomials as those of their squares' sum, factor by factor."""
     groups: list[Group] = []
+    circles = tuple(circle(*map(system.ring.gen, pair)) for pair in unit_circles(system.equations))
     for group in system.exclusions:
         total = group[0] if group else system.ring.zero
         if len(group) > 1 and sum(map(len, group)) <= LONGEST_SUM:
             total = sum((g * g for g in group), start=system.ring.zero)
-            for pair in unit_circles(system.equations):
-                total = remainder(total, circle(system.ring, pair), pair[1])
+            total = short_forms(system.ring, circles).normal_form(total)
         if total and len(total) <= LONGEST_SUM and (len(group) == 1 or total is not group[0]):
             groups += [(factor,) for factor, _ in total.factors()]
         else:
@@ -339,13 +341,13 @@ class _Vector:
 
     @classmethod
     def of(cls, pair: Pair, length: Polynomial, system: RealSystem) -> _Vector | None:
-        if set(pair) & set(length.variables) or (solved := linear_substitution((length,))) is None:
+        if set(pair) & set(length.variables) or (solved := shortest_substitution((length,))) is None:
             return None
         lead = length.coefficient(solved.name, 1).constant
         vector = cls(pair, solved.name, solved.value + length.ring.gen(solved.name) / lead)
         changed = [vector._changed(p) for p in system.equations]
         for other in (other for other in unit_circles(changed) if vector.length in other):
-            short = replace(vector, relation=circle(length.ring, other))
+            short = replace(vector, relation=circle(*map(length.ring.gen, other)))
             signs = (vector._changed(p, even=True) for p in (*system.positive, *system.nonnegative))
             if all(len(short.parts(p)) <= 1 for p in system.equations) and not any(
                 vector.length in short._reduced(p).variables for p in signs

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from singsym.polynomials import Ring
-from singsym.varieties.real.curves.arithmetic import Balls, PolynomialMap, System
+from singsym.varieties.real.curves.arithmetic import Balls, EnclosedMap, System
 
 RING = Ring(("x", "y", "z"))
 number = st.floats(-20, 20, allow_nan=False, width=32)
@@ -27,7 +27,7 @@ def holds(balls, index, exact):
 def test_values_over_boxes(p, center, radius, offset):
     box = Balls(np.array([center]), np.full((1, 3), radius))
     point = [Fraction(c) + Fraction(radius) * o for c, o in zip(center, offset, strict=True)]
-    compiled = PolynomialMap([p], 3)
+    compiled = EnclosedMap([p], 3)
     assert holds(compiled.balls(box), (0, 0), p.evaluate(point))
     assert holds(compiled.precise(box.mid), (0, 0), p.evaluate([Fraction(c) for c in center]))
 

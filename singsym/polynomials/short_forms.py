@@ -10,8 +10,9 @@ from functools import cached_property, lru_cache
 
 from flint import fmpq
 
-from singsym.polynomials import Polynomial, Ring
+from singsym.polynomials.polynomial import Polynomial
 from singsym.polynomials.remainders import Division, division
+from singsym.polynomials.ring import Ring
 
 LONGEST = 400
 """Polynomials with more terms are not treated modulo the equations."""

@@ -1,4 +1,4 @@
-"""Gauss-Newton takes the same steps in every unit."""
+"""Numerical points and witnesses are found alike in every unit."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from singsym.polynomials import Ring
-from singsym.varieties.real.numerical.gauss_newton import Compiled, approach, dependent_columns, gauss_newton
 from singsym.varieties.real.numerical.sampling import numerical_codimension, numerical_points
 from singsym.varieties.real.points.certified_point import find_witness
 from singsym.varieties.real.system import RealSystem
@@ -22,38 +21,6 @@ def torus_knot(k: Fraction) -> RealSystem:
     """A sphere and a plane of lengths times k, off x = 0 and with y > k/10."""
     equations = (x**2 + y**2 + z**2 - 9 * k**2, x + 2 * y - z - k)
     return RealSystem(R, equations, exclusions=((x,),), positive=(10 * y - k,))
-
-
-class Counting:
-    """A map that counts how often it is asked."""
-
-    def __init__(self, system: Compiled) -> None:
-        self.system, self.sizes, self.calls = system, system.sizes, 0
-
-    def __call__(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        self.calls += 1
-        return self.system(x)
-
-
-@pytest.mark.parametrize("k", UNITS)
-def test_as_many_steps_from_far_away(k: Fraction) -> None:
-    calls, ends = [], []
-    for unit in (Fraction(1), k):
-        counting = Counting(Compiled(torus_knot(unit).equations, R))
-        end = gauss_newton(counting, np.array([40.0, -30.0, 50.0]) * float(unit))
-        assert end is not None
-        calls.append(counting.calls)
-        ends.append(end / float(unit))
-    assert calls[0] == calls[1]
-    assert np.allclose(*ends, rtol=1e-6, atol=1e-6)
-
-
-@pytest.mark.parametrize("k", UNITS)
-def test_what_is_no_zero_is_not_taken_for_one(k: Fraction) -> None:
-    """x^2 + y^2 + k^2 has no real zero; in small units its values are below any fixed bound."""
-    system = Compiled((x**2 + y**2 + k**2,), R)
-    assert gauss_newton(system, np.array([1.0, 2.0, 0.0]) * float(k)) is None
-    assert approach(system, np.array([[1.0, 2.0, 0.0]]) * float(k)) == []
 
 
 @pytest.mark.parametrize("k", UNITS)
@@ -83,9 +50,3 @@ def test_witnesses_in_every_unit(k: Fraction) -> None:
     assert found is not None
     assert all(found.sign(p) == 0 for p in system.equations)
     assert found.sign(10 * y - k) == 1
-
-
-def test_dependent_columns_go_by_the_size_of_the_matrix() -> None:
-    """Of a matrix of small numbers the first column is chosen where it is asked for."""
-    assert dependent_columns(np.array([[1.0, 2.0]]) * 1e-12, 1, [0]) == [0]
-    assert dependent_columns(np.array([[1e-12, 2.0]]), 1, [0]) == [1]
