@@ -39,7 +39,10 @@ def test_a_coordinate_between_two_numbers() -> None:
 def test_a_cosine_over_its_positive_scale() -> None:
     """The follower's x axis is from C to D = (4, 0), 3 long: cos(D) = (4 - C.x)/3 = (12 - 3 C.x)/9 >= 1/2."""
     space = limited(FOUR, bound("cos(D)", HALF))
-    assert space.nonnegative == (12 - 3 * space.ring.gen("Cx") - 9 * HALF,)
+    cosine = 12 - 3 * space.ring.gen("Cx")
+    assert space.nonnegative == (cosine - 9 * HALF,)
+    squared = limited(FOUR, Limit(sympy.Symbol("cos(D)") ** 2, sympy.Rational(1, 4)))
+    assert squared.nonnegative == (cosine**2 - 81 * HALF**2,)
 
 
 def test_a_length_of_which_only_the_square_is_known() -> None:

@@ -62,11 +62,14 @@ def test_normal_forms_are_exact() -> None:
 
 
 def test_an_embedded_point_is_torsion() -> None:
-    """In Q[x, u]/(x^2, x u) the element x is not zero and u x is: torsion over u = 0."""
+    """In Q[x, u]/(x^2, x u) the element x is not zero and u x is: torsion over 0; so over 1."""
     a, b = PLANE.gens
     module = presentation(PLANE, (a**2, a * b), [(0,), (1,)])
     assert module == Presentation(((fmpq(0),),), ({},))
     assert torsion_support(module, Random(1)) == [[0, 1]]
+    module = presentation(PLANE, (a**2, a * b - a), [(0,), (1,)])
+    assert module == Presentation(((fmpq(1),),), ({},))
+    assert torsion_support(module, Random(1)) == [[-1, 1]]
 
 
 def test_a_curve_that_only_looks_as_if_it_had_torsion() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 import sympy
 
@@ -75,6 +76,15 @@ def test_what_moves_passively_is_no_motion_of_the_input() -> None:
     assert found[T.RPM] == [Motion(T.RPM, {"P": 1.0})]
     assert found[T.RI] == [Motion(T.RI, {"A": 1.0})]
     assert found[T.IO] == [Motion(T.IO, {"T": 1.0}, True)]
+
+
+def test_the_basis_of_a_kernel_does_not_matter() -> None:
+    """The kernel of L_O spanned by A + P and A - P: less the passive motion P it is A, for RI."""
+    equation = from_sympy(sympy.Matrix([[1, 0, 0], [0, 0, 0]]), THREE, SymbolicSpace())
+    mixed = np.array([[0.0, 1.0, 1.0], [0.0, 1.0, -1.0]]) / 2**0.5
+    passive, nothing = np.array([[0.0, 0.0, 1.0]]), np.zeros((0, 3))
+    kernels = {"L": mixed, "L_I": nothing, "L_O": mixed, "L_p": passive}
+    assert null_motions(equation, kernels, np.ones(3), T.RI) == (Motion(T.RI, {"A": 1.0}),)
 
 
 def test_a_restriction_between_two_inputs() -> None:

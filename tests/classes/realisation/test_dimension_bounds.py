@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from singsym.classes.realisation import dimension_bounds
 from singsym.classes.realisation.dimension_bounds import (
+    Bound,
     bound_above,
     is_bounded,
     larger_parts,
@@ -31,6 +33,16 @@ def test_a_bound_is_not_below_a_part_of_the_set() -> None:
     assert found is not None
     assert (found.dimension, found.certainty) == (2, "proven")
     assert is_bounded(system, 2)
+
+
+def test_a_dimension_is_no_bound_below_itself_though_nothing_was_seen(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Where hyperplanes give no answer in time, the complex dimension 2 is a bound of 2, and not of 1."""
+    monkeypatch.setattr(dimension_bounds, "seems_at_most", lambda *given: None)
+    system = RealSystem(R, PLANE_AND_LINE)
+    assert bound_above(system, 1) is None
+    assert bound_above(system, 2) == Bound(2)
 
 
 def test_what_an_exclusion_takes_out_does_not_count() -> None:

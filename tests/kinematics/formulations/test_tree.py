@@ -66,6 +66,19 @@ def test_where_the_links_of_a_planar_arm_come_to_be() -> None:
     assert (second.cosine, second.sine) == (c1 * c12 + s1 * s12, c1 * s12 - s1 * c12)
 
 
+def test_an_opposite_axis_turns_the_other_way() -> None:
+    """About z the second link is turned by q1 - q2, cosine c and sine s: sin q2 = s1 c - c1 s."""
+    mechanism = arm(UP, DOWN)
+    geometry = Geometry(mechanism)
+    steps = plan(mechanism, geometry, spanning_steps(mechanism), True)
+    sized = dimensions(mechanism, [v for step in steps for v in step.variables])
+    algebra = Algebra(sized.ring, sized.number)
+    grown = grow(geometry, algebra, {"ground": rigid(algebra, algebra.origin, algebra.axes)}, steps)
+    c1, s1, c, s = sized.ring.gens
+    second = grown.values["J2"]
+    assert (second.cosine, second.sine) == (c1 * c + s1 * s, s1 * c - c1 * s)
+
+
 def test_a_loop_is_cut_in_its_middle_and_no_tree_crosses_a_spherical_joint() -> None:
     """RSSR: crank and rocker from the ground, not the rod, which hangs between spherical joints."""
     assert {(p, c) for _, p, c in spanning_steps(load("rssr"))} == {("ground", "crank"), ("ground", "rocker")}
