@@ -42,7 +42,7 @@ class Branch:
 
     equations: its closed conditions, loop equations included; path: the factors and minors among them, as
         they are printed.
-    away: loci that other branches search, left out here.
+    removed: loci that are left out here, as other branches search them.
     feasible: the exclusions and inequalities of the feasible set Omega (its equations are not used).
     first, least, evident: see `ranks.ranked`.
     symmetries: reflections that keep the whole problem; images: those under which this part stands for
@@ -56,7 +56,7 @@ class Branch:
     feasible: RealSystem
     equations: Equations
     path: Equations = ()
-    away: tuple[Equations, ...] = ()
+    removed: tuple[Equations, ...] = ()
     first: str = "L_O"
     least: tuple[tuple[str, int], ...] = ()
     evident: tuple[SingularityType, ...] = ()
@@ -74,16 +74,16 @@ class Branch:
     @cached_property
     def kept(self) -> tuple[Reflection, ...]:
         """The symmetries of this part."""
-        sets = (self.equations, *self.away)
+        sets = (self.equations, *self.removed)
         return tuple(r for r in self.symmetries if all(keeps(r, equations) for equations in sets))
 
     @cached_property
     def admitted(self) -> RealSystem:
         """The feasible set off what other branches search."""
-        return replace(self.feasible, exclusions=(*self.feasible.exclusions, *self.away))
+        return replace(self.feasible, exclusions=(*self.feasible.exclusions, *self.removed))
 
     def within(
-        self, locus: Equations, away: tuple[Equations, ...], equations: Equations, least: Least
+        self, locus: Equations, removed: tuple[Equations, ...], equations: Equations, least: Least
     ) -> Branch:
         """The part of this branch on one more locus, with what is known of the ranks there."""
         path = tuple(dict.fromkeys((*self.path, *locus)))
@@ -93,7 +93,7 @@ class Branch:
             self,
             equations=(*equations, *locus),
             path=path,
-            away=(*self.away, *away),
+            removed=(*self.removed, *removed),
             least=tuple(sorted(known.items())),
         )
 
@@ -247,7 +247,7 @@ class _Exploring:
             branch.problem, ground, branch.admitted, branch.first, dict(branch.least), branch.evident
         )
         if found.stratum is not None:
-            loci = (*branch.away, *found.stratum.loci)
+            loci = (*branch.removed, *found.stratum.loci)
             stratum = replace(found.stratum, loci=loci, elsewhere=part.elsewhere)
             self.found += _apart(Found(branch.path, stratum, part.images))
         taken: tuple[Equations, ...] = ()

@@ -108,11 +108,11 @@ def _hatching(axes: Any, start: Floats, end: Floats, h: float) -> None:
     """A fixed line with strokes on its right-hand side."""
     axes.plot(*np.array([start, end]).T, "-", color=INK, lw=1.2, zorder=2.4)
     along = (end - start) / np.linalg.norm(end - start)
-    away = np.array([along[1], -along[0]])
+    normal = np.array([along[1], -along[0]])
     count = max(3, round(float(np.linalg.norm(end - start)) / (0.45 * h)))
     for t in np.linspace(0.08, 0.98, count):
         foot = start + t * (end - start)
-        tip = foot + 0.4 * h * (away - along)
+        tip = foot + 0.4 * h * (normal - along)
         axes.plot(*np.array([foot, tip]).T, "-", color=PALE, lw=0.9, zorder=2.3)
 
 

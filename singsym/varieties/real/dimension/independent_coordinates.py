@@ -54,7 +54,7 @@ def are_dependent(system: RealSystem, dimension: int, circles: Iterable[Pair] = 
         return False
     random = chance.random("independent coordinates", *equations)
     small = [ring.convert(p) for p in equations]
-    nonzero = [ring.convert(p) for p in system.away if set(p.variables) <= set(ring.names)]
+    nonzero = [ring.convert(p) for p in system.exclusion_polynomials if set(p.variables) <= set(ring.names)]
     for chosen in combinations(coordinates, count):
         values = {name: value for names in chosen for name, value in random_values(ring, names, random)}
         if not is_missed(small, values, nonzero):
@@ -80,8 +80,8 @@ def is_missed(
     ring = left[0].ring
     if _is_empty(ring, left):
         return True
-    away = [q for p in nonzero if not (q := p.substitute(dict(values))).is_constant]
-    return bool(away) and _is_empty(*without_zeros_of(ring, left, *away))
+    left_nonzero = [q for p in nonzero if not (q := p.substitute(dict(values))).is_constant]
+    return bool(left_nonzero) and _is_empty(*without_zeros_of(ring, left, *left_nonzero))
 
 
 def random_values(ring: Ring, names: tuple[str, ...], random: Random) -> Iterator[tuple[str, Polynomial]]:
