@@ -44,7 +44,7 @@ class Branch:
         they are printed.
     removed: loci that are left out here, as other branches search them.
     feasible: the exclusions and inequalities of the feasible set Omega (its equations are not used).
-    first, least, evident: see `ranks.ranked`.
+    first, least, complete_types: see `ranks.ranked`.
     symmetries: reflections that keep the whole problem; images: those under which this part stands for
         other parts, which are not searched.
     elsewhere: sets that other branches search; their points are not counted here.
@@ -59,7 +59,7 @@ class Branch:
     removed: tuple[Equations, ...] = ()
     first: str = "L_O"
     least: tuple[tuple[str, int], ...] = ()
-    evident: tuple[SingularityType, ...] = ()
+    complete_types: tuple[SingularityType, ...] = ()
     symmetries: tuple[Reflection, ...] = (IDENTITY,)
     images: tuple[Reflection, ...] = (IDENTITY,)
     elsewhere: tuple[Equations, ...] = ()
@@ -244,7 +244,7 @@ class _Exploring:
         branch = self.branch
         part = self._part(images, tuple(image(locus, r) for locus in known for r in images))
         found = ranked(
-            branch.problem, ground, branch.admitted, branch.first, dict(branch.least), branch.evident
+            branch.problem, ground, branch.admitted, branch.first, dict(branch.least), branch.complete_types
         )
         if found.stratum is not None:
             loci = (*branch.removed, *found.stratum.loci)

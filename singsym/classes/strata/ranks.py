@@ -111,13 +111,13 @@ def ranked(
     feasible: RealSystem,
     first: str = "L_O",
     least: Least | None = None,
-    evident: tuple[SingularityType, ...] = (),
+    complete_types: tuple[SingularityType, ...] = (),
 ) -> Ranked:
     """The generic ranks on a ground off its exclusions, and the loci of lower rank that matter for the types.
 
     Matrix by matrix, each taken apart anew with what is solved for put in, and with the loci of those before
     known not to vanish.  first: `L_O` or `L_I`; where it has full rank, there is neither IIM nor RPM.
-    least: what is known of the ranks; evident: the types whose strata are known.
+    least: what is known of the ranks; complete_types: those whose strata are all known.
 
     >>> from singsym.classes.strata.patches import Patch
     >>> from singsym.polynomials import Ring
@@ -137,7 +137,7 @@ def ranked(
         ranks.examine("L")
     if not ranks.defect["L"] and not ranks.defect["L_p"]:
         possible = (_OWN[first], _BOTH) if ranks.defect[first] else (SingularityType(0), _OWN[other])
-        if set(possible) <= set(evident):
+        if set(possible) <= set(complete_types):
             return Ranked(None, ranks.loci)
     before = {locus: dict(there) for locus, there in ranks.loci.items()}
     ranks.examine(other)
@@ -146,7 +146,7 @@ def ranked(
     matters = other in relevant(defects) or not ranks.highest[other]
     loci = ranks.loci if matters else before
     found = Stratum(ground.equations, defects, tuple(loci), ground.component)
-    return Ranked(None if defects.types in evident else found, loci)
+    return Ranked(None if defects.types in complete_types else found, loci)
 
 
 @dataclass

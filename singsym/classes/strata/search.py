@@ -29,19 +29,19 @@ _PATIENCE = 2
 class Exploration:
     """All strata, and the branches that ended without an answer, with their reasons.
 
-    evident: types whose strata are all there, whatever is unexplored; certainty: how the others are known to
-        be all; modular: types for which that rests on primes in any case.
+    complete_types: those whose strata are all there, whatever is unexplored; certainty: how the others are
+        known to be all; modular: types for which that rests on primes in any case.
     """
 
     found: tuple[Found, ...]
     unexplored: tuple[tuple[Branch, str], ...]
-    evident: tuple[SingularityType, ...] = ()
+    complete_types: tuple[SingularityType, ...] = ()
     certainty: Certainty = "proven"
     modular: tuple[SingularityType, ...] = ()
 
     def certainty_of(self, types: SingularityType) -> Certainty:
         """How it is known that there are no more configurations of these types than were found."""
-        if types in self.evident:
+        if types in self.complete_types:
             return "proven"
         return weakest(self.certainty, "modular" if types in self.modular else "proven")
 
@@ -52,7 +52,7 @@ class Exploration:
 
     def doubts(self, types: SingularityType) -> tuple[str, ...]:
         """Why there may be more configurations of these types than were found."""
-        return () if types in self.evident else self.doubts_of_any
+        return () if types in self.complete_types else self.doubts_of_any
 
 
 Loci = tuple[Equations, ...]
@@ -86,7 +86,7 @@ def search(
     first: Sequence[Branch] = (root,)
     if singular is not None:
         found, first = _started(root, singular)
-    evident = first[0].evident if first else ()
+    complete_types = first[0].complete_types if first else ()
     whole = budget or Budget()
     unexplored: list[tuple[Branch, str]] = []
     modular: list[tuple[Branch, Explored]] = []
@@ -95,7 +95,7 @@ def search(
             modular.append((branch, explored))
         unexplored += [(branch, reason) for reason in explored.undecided]
         found += explored.found
-    return Exploration(tuple(found), tuple(unexplored), evident, *_proven(modular, runner, whole))
+    return Exploration(tuple(found), tuple(unexplored), complete_types, *_proven(modular, runner, whole))
 
 
 def _proven(
@@ -131,17 +131,17 @@ def _longer(seconds: float | None) -> float | None:
 
 def _started(root: Branch, singular: SingularLoci) -> tuple[list[Found], list[Branch]]:
     """The strata that need no search, and the branches where the others are."""
-    found = list(_evident_strata(root, singular))
-    evident = tuple(dict.fromkeys((*(part.stratum.defects.types for part in found), *_SIMPLE)))
+    found = list(_strata_without_search(root, singular))
+    complete_types = tuple(dict.fromkeys((*(part.stratum.defects.types for part in found), *_SIMPLE)))
     first, loci = min(
         (("L_O", singular.outputs), ("L_I", singular.inputs)),
         key=lambda side: sum(len(p) for locus in side[1] for p in locus),
     )
-    ready = replace(root, first=first, evident=evident)
+    ready = replace(root, first=first, complete_types=complete_types)
     return found, [ready.within(locus, loci[:i], root.equations, {first: 1}) for i, locus in enumerate(loci)]
 
 
-def _evident_strata(root: Branch, singular: SingularLoci) -> Iterator[Found]:
+def _strata_without_search(root: Branch, singular: SingularLoci) -> Iterator[Found]:
     """The regular configurations, and the classes without IIM and RPM.
 
     With k_O = 0 there is neither IIM nor RPM, and the class is (RO, II) by (vii); dually (RI, IO) by (viii).
