@@ -17,7 +17,7 @@ from singsym.classes.strata.occurrence import (
     samples_of,
 )
 from singsym.classes.strata.patches import Patch, patches, unsplit
-from singsym.classes.strata.ranks import Least, RankProblem, Stratum, ranked
+from singsym.classes.strata.ranks import DefectBounds, RankProblem, Stratum, ranked
 from singsym.classes.strata.reflections import IDENTITY, Reflection, compose, image, keeps, representatives
 from singsym.classes.taxonomy.types import SingularityType
 from singsym.effort import patience
@@ -44,7 +44,7 @@ class Branch:
         they are printed.
     removed: loci that are left out here, as other branches search them.
     feasible: the exclusions and inequalities of the feasible set Omega (its equations are not used).
-    first, least, complete_types: see `ranks.ranked`.
+    first, defect_bounds, complete_types: see `ranks.ranked`.
     symmetries: reflections that keep the whole problem; images: those under which this part stands for
         other parts, which are not searched.
     elsewhere: sets that other branches search; their points are not counted here.
@@ -58,7 +58,7 @@ class Branch:
     path: Equations = ()
     removed: tuple[Equations, ...] = ()
     first: str = "L_O"
-    least: tuple[tuple[str, int], ...] = ()
+    defect_bounds: tuple[tuple[str, int], ...] = ()
     complete_types: tuple[SingularityType, ...] = ()
     symmetries: tuple[Reflection, ...] = (IDENTITY,)
     images: tuple[Reflection, ...] = (IDENTITY,)
@@ -83,18 +83,22 @@ class Branch:
         return replace(self.feasible, exclusions=(*self.feasible.exclusions, *self.removed))
 
     def within(
-        self, locus: Equations, removed: tuple[Equations, ...], equations: Equations, least: Least
+        self,
+        locus: Equations,
+        removed: tuple[Equations, ...],
+        equations: Equations,
+        defect_bounds: DefectBounds,
     ) -> Branch:
         """The part of this branch on one more locus, with what is known of the ranks there."""
         path = tuple(dict.fromkeys((*self.path, *locus)))
-        known = dict(self.least)
-        known |= {name: max(defect, known.get(name, 0)) for name, defect in least.items()}
+        known = dict(self.defect_bounds)
+        known |= {name: max(defect, known.get(name, 0)) for name, defect in defect_bounds.items()}
         return replace(
             self,
             equations=(*equations, *locus),
             path=path,
             removed=(*self.removed, *removed),
-            least=tuple(sorted(known.items())),
+            defect_bounds=tuple(sorted(known.items())),
         )
 
 
@@ -244,17 +248,22 @@ class _Exploring:
         branch = self.branch
         part = self._part(images, tuple(image(locus, r) for locus in known for r in images))
         found = ranked(
-            branch.problem, ground, branch.admitted, branch.first, dict(branch.least), branch.complete_types
+            branch.problem,
+            ground,
+            branch.admitted,
+            branch.first,
+            dict(branch.defect_bounds),
+            branch.complete_types,
         )
         if found.stratum is not None:
             loci = (*branch.removed, *found.stratum.loci)
             stratum = replace(found.stratum, loci=loci, elsewhere=part.elsewhere)
             self.found += _apart(Found(branch.path, stratum, part.images))
         taken: tuple[Equations, ...] = ()
-        for whole, least in found.loci.items():
+        for whole, defect_bounds in found.loci.items():
             for locus in split_product(whole):
                 if not any(set(known) <= set(locus) for known in taken):
-                    self.following.append(part.within(locus, taken, ground.equations, least))
+                    self.following.append(part.within(locus, taken, ground.equations, defect_bounds))
                     taken = (*taken, locus)
 
     def _split(self, patch: Patch, polynomial: Polynomial, images: tuple[Reflection, ...]) -> None:

@@ -88,7 +88,7 @@ _OWN = {
 _BOTH = _OWN["L_O"] | _OWN["L_I"]
 
 
-Least = Mapping[str, int]
+DefectBounds = Mapping[str, int]
 """Of some matrices, how far at least they are below full rank on a set."""
 
 
@@ -102,7 +102,7 @@ class Ranked:
     """
 
     stratum: Stratum | None
-    loci: Mapping[tuple[Polynomial, ...], Least]
+    loci: Mapping[tuple[Polynomial, ...], DefectBounds]
 
 
 def ranked(
@@ -110,14 +110,14 @@ def ranked(
     ground: Ground,
     feasible: RealSystem,
     first: str = "L_O",
-    least: Least | None = None,
+    defect_bounds: DefectBounds | None = None,
     complete_types: tuple[SingularityType, ...] = (),
 ) -> Ranked:
     """The generic ranks on a ground off its exclusions, and the loci of lower rank that matter for the types.
 
     Matrix by matrix, each taken apart anew with what is solved for put in, and with the loci of those before
     known not to vanish.  first: `L_O` or `L_I`; where it has full rank, there is neither IIM nor RPM.
-    least: what is known of the ranks; complete_types: those whose strata are all known.
+    defect_bounds: what is known of the ranks; complete_types: those whose strata are all known.
 
     >>> from singsym.classes.strata.patches import Patch
     >>> from singsym.polynomials import Ring
@@ -130,7 +130,7 @@ def ranked(
     {(y,): {'L_O': 1}, (x,): {'L_I': 1}}
     """
     other = {"L_O": "L_I", "L_I": "L_O"}[first]
-    ranks = _Ranks(problem, ground, feasible, dict(least or {}))
+    ranks = _Ranks(problem, ground, feasible, dict(defect_bounds or {}))
     ranks.examine(first)
     if ranks.defect[first]:
         ranks.examine("L_p")
@@ -153,15 +153,15 @@ def ranked(
 class _Ranks:
     """What is found out of the four ranks on a ground, matrix by matrix.
 
-    least: how far at least each is below full rank; defect: how far it is, off the loci; highest: whether it
-        is proven nowhere higher; loci: of lower rank, with how far at least the matrices are below full rank
-        there.
+    defect_bounds: how far at least each is below full rank; defect: how far it is, off the loci; highest:
+        whether it is proven nowhere higher; loci: of lower rank, with how far at least the matrices are below
+        full rank there.
     """
 
     problem: RankProblem
     ground: Ground
     feasible: RealSystem
-    least: dict[str, int]
+    defect_bounds: dict[str, int]
     defect: dict[str, int] = field(default_factory=lambda: {"L": 0, "L_p": 0})
     highest: dict[str, bool] = field(default_factory=lambda: dict.fromkeys(_BELOW, True))
     loci: dict[Equations, dict[str, int]] = field(default_factory=dict)
@@ -175,8 +175,10 @@ class _Ranks:
         full = self.problem.full(name) - parts.constant
         starts = [numerical_minor(block, ground.samples) for block in parts.blocks]
         most = sum(min(block.shape) for block in parts.blocks)
-        self.least[name] = max(full - most, *(self.least.get(other, 0) for other in _BELOW[name]))
-        largest = sum(len(rows) for rows, _ in starts) == full - self.least[name]
+        self.defect_bounds[name] = max(
+            full - most, *(self.defect_bounds.get(other, 0) for other in _BELOW[name])
+        )
+        largest = sum(len(rows) for rows, _ in starts) == full - self.defect_bounds[name]
         found = [
             block_rank(block, ground, certifier, start, largest)
             for block, start in zip(parts.blocks, starts, strict=True)

@@ -148,7 +148,7 @@ def _sharpened(
     with at_precision(bits + 64):
         point = [ball(m) for m in middles]
         # the next step would be shorter than the square of this one, up to a factor
-        least = arb(2) ** (-(bits // 2) - 16)
+        negligible = arb(2) ** (-(bits // 2) - 16)
         for _ in range(bits.bit_length() + 8):
             slopes = arb_mat([[evaluate(d, point) if d else arb(0) for d in row] for row in derivatives])
             values = arb_mat([[evaluate(f, point)] for f in equations])
@@ -158,7 +158,7 @@ def _sharpened(
                 return None
             for i, k in enumerate(places):
                 point[k] = arb((point[k] - step[i, 0]).mid())
-            if all(abs(step[i, 0]) < least for i in range(len(places))):
+            if all(abs(step[i, 0]) < negligible for i in range(len(places))):
                 break
         radius = Fraction(1, 2**bits)
         if krawczyk(equations, unknowns, point, radius) is None:
