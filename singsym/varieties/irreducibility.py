@@ -65,13 +65,13 @@ def _smallest_cover(supports: list[frozenset[int]]) -> frozenset[int]:
     """A smallest set of indices that meets all supports, by branch and bound."""
     best = frozenset[int]().union(*supports)
 
-    def search(left: list[frozenset[int]], taken: frozenset[int]) -> None:
+    def search(left: list[frozenset[int]], chosen: frozenset[int]) -> None:
         nonlocal best
         if not left:
-            best = taken if len(taken) < len(best) else best
-        elif len(taken) + 1 < len(best):
+            best = chosen if len(chosen) < len(best) else best
+        elif len(chosen) + 1 < len(best):
             for i in sorted(sorted(left, key=len)[0]):
-                search([s for s in left if i not in s], taken | {i})
+                search([s for s in left if i not in s], chosen | {i})
 
     search(supports, frozenset())
     return best

@@ -259,21 +259,21 @@ class _Exploring:
             loci = (*branch.removed, *found.stratum.loci)
             stratum = replace(found.stratum, loci=loci, elsewhere=part.elsewhere)
             self.found += _apart(Found(branch.path, stratum, part.images))
-        taken: tuple[Equations, ...] = ()
+        removed: tuple[Equations, ...] = ()
         for whole, defect_bounds in found.loci.items():
             for locus in split_product(whole):
-                if not any(set(known) <= set(locus) for known in taken):
-                    self.following.append(part.within(locus, taken, ground.equations, defect_bounds))
-                    taken = (*taken, locus)
+                if not any(set(known) <= set(locus) for known in removed):
+                    self.following.append(part.within(locus, removed, ground.equations, defect_bounds))
+                    removed = (*removed, locus)
 
     def _split(self, patch: Patch, polynomial: Polynomial, images: tuple[Reflection, ...]) -> None:
         """A patch as two branches: the zeros of a polynomial and the rest."""
         part = self._part(images)
-        taken: tuple[Equations, ...] = ()
+        removed: tuple[Equations, ...] = ()
         for factor in split_product((polynomial,)):
-            self.following.append(part.within(factor, taken, patch.generators, {}))
-            taken = (*taken, factor)
-        self.following.append(part.within((), taken, patch.generators, {}))
+            self.following.append(part.within(factor, removed, patch.generators, {}))
+            removed = (*removed, factor)
+        self.following.append(part.within((), removed, patch.generators, {}))
 
     def _part(self, images: tuple[Reflection, ...], known: tuple[Equations, ...] = ()) -> Branch:
         """The branch with the images of one patch, and with what was looked at before."""
