@@ -222,8 +222,8 @@ class _Work:
         """
         limits = self.limits
         tasks = [self._task(f, f.stratum.defects.delta) for f in found]
-        first = [replace(task, seconds=limits.part(patience.FIRST_LOOK.work)) for task in tasks]
-        realised = self.runner.map(realise, first, "real points", self.ends.pieces)
+        quick = [replace(task, seconds=limits.part(patience.FIRST_LOOK.work)) for task in tasks]
+        realised = self.runner.map(realise, quick, "real points", self.ends.pieces)
         self._look_again(tasks, realised, limits.part(patience.SECOND_LOOK.work), "real points, second look")
         self._look_again(tasks, realised, limits.seconds, "real points, at length", most=1)
         return realised

@@ -117,15 +117,15 @@ def coordinates(ideal: Ideal, rng: Random) -> Iterator[Coordinates]:
     basis = ideal.groebner_basis()
     chosen = independent_variables(leading_exponents(basis), len(ring.names))
     last = tuple(ring.names[i] for i in chosen)
-    first = tuple(n for n in ring.names if n not in last)
-    turned = Ring(first + last, "degrevlex", ring.constants)
+    dependent = tuple(n for n in ring.names if n not in last)
+    turned = Ring(dependent + last, "degrevlex", ring.constants)
     if turned.names != ring.names:
         basis = Ideal(turned, tuple(turned.convert(p) for p in basis)).groebner_basis()
     yield Coordinates(turned, basis, len(last), ring)
     if not last:
         return
     constants = {c.name for c in ring.constants}
-    movable = [n for n in first if n not in constants]
+    movable = [n for n in dependent if n not in constants]
     for _ in range(2):
         shift = {
             u: sum((turned.gen(n) * rng.choice((-1, 1, 2)) for n in movable), start=turned.zero) for u in last

@@ -44,7 +44,7 @@ class Branch:
         they are printed.
     removed: loci that are left out here, as other branches search them.
     feasible: the exclusions and inequalities of the feasible set Omega (its equations are not used).
-    first, defect_bounds, complete_types: see `ranks.ranked`.
+    first_matrix, defect_bounds, complete_types: see `ranks.ranked`.
     symmetries: reflections that keep the whole problem; images: those under which this part stands for
         other parts, which are not searched.
     elsewhere: sets that other branches search; their points are not counted here.
@@ -57,7 +57,7 @@ class Branch:
     equations: Equations
     path: Equations = ()
     removed: tuple[Equations, ...] = ()
-    first: str = "L_O"
+    first_matrix: str = "L_O"
     defect_bounds: tuple[tuple[str, int], ...] = ()
     complete_types: tuple[SingularityType, ...] = ()
     symmetries: tuple[Reflection, ...] = (IDENTITY,)
@@ -251,7 +251,7 @@ class _Exploring:
             branch.problem,
             ground,
             branch.admitted,
-            branch.first,
+            branch.first_matrix,
             dict(branch.defect_bounds),
             branch.complete_types,
         )

@@ -109,14 +109,15 @@ def ranked(
     problem: RankProblem,
     ground: Ground,
     feasible: RealSystem,
-    first: str = "L_O",
+    first_matrix: str = "L_O",
     defect_bounds: DefectBounds | None = None,
     complete_types: tuple[SingularityType, ...] = (),
 ) -> Ranked:
     """The generic ranks on a ground off its exclusions, and the loci of lower rank that matter for the types.
 
     Matrix by matrix, each taken apart anew with what is solved for put in, and with the loci of those before
-    known not to vanish.  first: `L_O` or `L_I`; where it has full rank, there is neither IIM nor RPM.
+    known not to vanish.
+    first_matrix: `L_O` or `L_I`; where it has full rank, there is neither IIM nor RPM.
     defect_bounds: what is known of the ranks; complete_types: those whose strata are all known.
 
     >>> from singsym.classes.strata.patches import Patch
@@ -129,14 +130,15 @@ def ranked(
     >>> ranked(RankProblem({"L": row, **parts}, 0, 1, 1), plane, RealSystem(R, ())).loci
     {(y,): {'L_O': 1}, (x,): {'L_I': 1}}
     """
-    other = {"L_O": "L_I", "L_I": "L_O"}[first]
+    other = {"L_O": "L_I", "L_I": "L_O"}[first_matrix]
     ranks = _Ranks(problem, ground, feasible, dict(defect_bounds or {}))
-    ranks.examine(first)
-    if ranks.defect[first]:
+    ranks.examine(first_matrix)
+    if ranks.defect[first_matrix]:
         ranks.examine("L_p")
         ranks.examine("L")
     if not ranks.defect["L"] and not ranks.defect["L_p"]:
-        possible = (_OWN[first], _BOTH) if ranks.defect[first] else (SingularityType(0), _OWN[other])
+        own = _OWN[first_matrix]
+        possible = (own, _BOTH) if ranks.defect[first_matrix] else (SingularityType(0), _OWN[other])
         if set(possible) <= set(complete_types):
             return Ranked(None, ranks.loci)
     before = {locus: dict(there) for locus, there in ranks.loci.items()}

@@ -83,14 +83,14 @@ def search(
     The result does not depend on the runner's executor: branches keep their order.
     """
     found: list[Found] = []
-    first: Sequence[Branch] = (root,)
+    roots: Sequence[Branch] = (root,)
     if singular is not None:
-        found, first = _started(root, singular)
-    complete_types = first[0].complete_types if first else ()
+        found, roots = _started(root, singular)
+    complete_types = roots[0].complete_types if roots else ()
     whole = budget or Budget()
     unexplored: list[tuple[Branch, str]] = []
     modular: list[tuple[Branch, Explored]] = []
-    for branch, explored in runner.grow(explore, first, attrgetter("following"), "strata", whole):
+    for branch, explored in runner.grow(explore, roots, attrgetter("following"), "strata", whole):
         if explored.certainty != "proven":
             modular.append((branch, explored))
         unexplored += [(branch, reason) for reason in explored.undecided]
@@ -107,8 +107,8 @@ def _proven(
     modulo primes, leave only their own types in doubt, which come second.
     """
     stage = "strata, proofs over Q"
-    empty = [branch for branch, first in modular if first == Explored(certainty=first.certainty)]
-    others = [(branch, first) for branch, first in modular if branch not in empty]
+    empty = [branch for branch, once in modular if once == Explored(certainty=once.certainty)]
+    others = [(branch, once) for branch, once in modular if branch not in empty]
     empty = [replace(branch, splits=0, seconds=_longer(branch.seconds)) for branch in empty]
     known: list[Certainty] = []
     types: dict[SingularityType, None] = {}
@@ -118,10 +118,10 @@ def _proven(
         else:
             known.append(part.certainty)
             types |= dict.fromkeys(f.stratum.defects.types for f in part.found)
-    seconds = runner.map(explore_patiently, [branch for branch, _ in others], stage, budget)
-    for (_, first), second in zip(others, seconds, strict=True):
-        same = replace(second, certainty=first.certainty) == first
-        known.append(second.certainty if same else first.certainty)
+    looks = runner.map(explore_patiently, [branch for branch, _ in others], stage, budget)
+    for (_, once), again in zip(others, looks, strict=True):
+        same = replace(again, certainty=once.certainty) == once
+        known.append(again.certainty if same else once.certainty)
     return weakest(*known), tuple(types)
 
 
@@ -133,12 +133,12 @@ def _started(root: Branch, singular: SingularLoci) -> tuple[list[Found], list[Br
     """The strata that need no search, and the branches where the others are."""
     found = list(_strata_without_search(root, singular))
     complete_types = tuple(dict.fromkeys((*(part.stratum.defects.types for part in found), *_SIMPLE)))
-    first, loci = min(
+    matrix, loci = min(
         (("L_O", singular.outputs), ("L_I", singular.inputs)),
         key=lambda side: sum(len(p) for locus in side[1] for p in locus),
     )
-    ready = replace(root, first=first, complete_types=complete_types)
-    return found, [ready.within(locus, loci[:i], root.equations, {first: 1}) for i, locus in enumerate(loci)]
+    ready = replace(root, first_matrix=matrix, complete_types=complete_types)
+    return found, [ready.within(locus, loci[:i], root.equations, {matrix: 1}) for i, locus in enumerate(loci)]
 
 
 def _strata_without_search(root: Branch, singular: SingularLoci) -> Iterator[Found]:

@@ -59,15 +59,15 @@ class MsolveEngine:
         generators = [p for p in task.generators if p]
         used = used_variables(generators)
         eliminated = [task.ring.index(v.variables[0]) for v in task.others]
-        first = [i for i in used if i in eliminated]
-        used = (*first, *(i for i in used if i not in eliminated))
-        if not used or len(first) == len(used):
+        to_eliminate = [i for i in used if i in eliminated]
+        used = (*to_eliminate, *(i for i in used if i not in eliminated))
+        if not used or len(to_eliminate) == len(used):
             unit = not used and bool(generators)
             return EngineAnswer(((task.ring.one,) if unit else (),), self.name)
-        options = ["-g", "2", *(["-e", str(len(first))] if first else [])]
+        options = ["-g", "2", *(["-e", str(len(to_eliminate))] if to_eliminate else [])]
         text = self._call(generators, used, options, budget, task.characteristic)
         match = re.fullmatch(r"((?:#.*\n)*)\[(.*)\]:\s*", text, re.DOTALL)
-        shown = used[len(first) :] if first else used
+        shown = used[len(to_eliminate) :] if to_eliminate else used
         if match is None:
             raise EngineFailure(self.name, f"printed no basis: {text[:200]!r}")
         if f"#variable order:       {', '.join(f'x{used.index(i) + 1}' for i in shown)}\n" not in match[1]:
