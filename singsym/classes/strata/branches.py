@@ -47,7 +47,7 @@ class Branch:
     first_matrix, defect_bounds, complete_types: see `ranks.ranked`.
     symmetries: reflections that keep the whole problem; images: those under which this part stands for
         other parts, which are not searched.
-    elsewhere: sets that other branches search; their points are not counted here.
+    elsewhere: loci whose points another branch counts.
     splits: how often it was split by a variable without knowing a point.
     seconds, memory_mb: the budget of the decomposition.
     """

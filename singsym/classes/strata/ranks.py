@@ -45,7 +45,7 @@ class Stratum:
 
     loci: of each tuple, not all polynomials vanish on the stratum.
     component: the equations' zero set where it comes from a decomposition, else None.
-    elsewhere: loci whose points in the stratum belong to another stratum of the same types as well.
+    elsewhere: loci whose points another branch counts, in a stratum of the same types.
     """
 
     equations: tuple[Polynomial, ...]

@@ -56,8 +56,8 @@ def test_a_leg_that_may_vanish_has_a_direction_of_its_own() -> None:
     own = ("d_P1", "ux_P1", "uy_P1", "uz_P1")
     other = Exclusion("coincide", ("A1", "B2"))
     touching = Limit(length_symbol(LEG), sympy.Integer(0))
-    elsewhere = Limit(length_symbol(PLATFORM.joint("P2")), sympy.Integer(1))
-    limited = [without_exclusions(limits=(limit,)) for limit in (touching, elsewhere)]
+    other_leg = Limit(length_symbol(PLATFORM.joint("P2")), sympy.Integer(1))
+    limited = [without_exclusions(limits=(limit,)) for limit in (touching, other_leg)]
     for mechanism in (without_exclusions(), without_exclusions(other), *limited):
         leg = struts(mechanism)["lower1", "upper1"]
         assert leg.names == own
