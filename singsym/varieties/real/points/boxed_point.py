@@ -6,15 +6,15 @@ Source: Krawczyk, Computing 4 (1969) 187-201.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Any
 
 from flint import arb, arb_mat
 
 from singsym.effort.budget import Undecided
 from singsym.polynomials import Polynomial, Ring
+from singsym.varieties.real.points.enclosed_point import EnclosedPoint
 from singsym.varieties.real.points.intervals import (
     at_precision,
     ball,
@@ -28,26 +28,19 @@ from singsym.varieties.real.points.intervals import (
 _MOST_BITS = 4096
 
 
-@dataclass(frozen=True)
-class BoxPoint:
+@dataclass(frozen=True, repr=False)
+class BoxPoint(EnclosedPoint):
     """The only solution of `equations` in a box, with some coordinates at rationals.
 
     middles: rationals for all names, in order; unknowns: the names that the equations determine; the box of
     these is middle +- radius.  Signs are decided where they are not zero, and for the equations themselves.
     """
 
-    ring: Ring
     equations: tuple[Polynomial, ...]
     unknowns: tuple[str, ...]
     middles: tuple[Fraction, ...]
     radius_bound: Fraction
     bits: int = 64
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {f.name: getattr(self, f.name) for f in fields(self)}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__.update(state)
 
     @cached_property
     def box(self) -> tuple[arb, ...]:
@@ -87,10 +80,6 @@ class BoxPoint:
         """The coordinates in double precision."""
         return tuple(float(m) for m in self.middles)
 
-    def __getitem__(self, name: str) -> arb:
-        """The ball of one coordinate."""
-        return self.box[self.ring.index(name)]
-
     def decimals(self, digits: int = 12) -> dict[str, str]:
         """The coordinates by name to so many digits."""
         point = self.refine(int(3.33 * digits) + 16)
@@ -112,10 +101,6 @@ class BoxPoint:
                 return sign
             bits *= 2
         raise Undecided(f"the sign of {polynomial} at a boxed point: zero up to {_MOST_BITS} bits")
-
-    def __repr__(self) -> str:
-        values = ", ".join(f"{name}={value}" for name, value in self.decimals(6).items())
-        return f"BoxPoint({values})"
 
 
 def boxed_point(
