@@ -191,9 +191,9 @@ def _by_levels(
         for piece in pieces:
             base = tuple(inner.convert(p) for p in piece.generators)
             fresh = len(level.names) - len(piece.ideal.ring.names)
-            min_dimension = piece.dimension + fresh - len(added) if piece.is_pure else 0
+            least = piece.dimension + fresh - len(added) if piece.is_pure else 0
             macaulay = piece.purity == "Cohen-Macaulay"
-            found += _refine(_System(inner, (*base, *added), known, min_dimension, macaulay))
+            found += _refine(_System(inner, (*base, *added), known, least, macaulay))
         pieces = list(prune(_in_ring(piece, inner) for piece in found))
     return pieces
 
@@ -205,19 +205,19 @@ def _by_levels(
 class _System:
     """Equations to split, and what is known of their zeros outside those of `nonzero`.
 
-    min_dimension: no component of the set that is being split has a smaller one (Krull: each equation
-    takes one at most off a set of a single dimension); the parts below it lie in others and are dropped.
-    macaulay: if that is the dimension, the ideal is Cohen-Macaulay (unmixedness theorem).
+    least: no component of the set that is being split has a smaller dimension (Krull: each equation takes
+    one at most off a set of a single dimension); the parts below it lie in others and are dropped.  macaulay:
+    if `least` is the dimension, the ideal is Cohen-Macaulay (unmixedness theorem).
     """
 
     ring: Ring
     equations: tuple[Polynomial, ...]
     nonzero: frozenset[Polynomial]
-    min_dimension: int
+    least: int
     macaulay: bool = False
 
     def plus(self, p: Polynomial, nonzero: Iterable[Polynomial] = ()) -> _System:
-        return _System(self.ring, (*self.equations, p), self.nonzero | frozenset(nonzero), self.min_dimension)
+        return _System(self.ring, (*self.equations, p), self.nonzero | frozenset(nonzero), self.least)
 
     def replaced(self, equations: Iterable[Polynomial], *, same_ideal: bool) -> _System:
         return replace(self, equations=tuple(equations), macaulay=self.macaulay and same_ideal)
@@ -249,7 +249,7 @@ def _refined(system: _System) -> tuple[Component, ...]:
         return ()
     reduced = tuple(smaller.convert(p) for p in substitution.apply(single))
     forbidden = frozenset(smaller.convert(p) for p in nonzero)
-    pieces = _refine(_System(smaller, reduced, forbidden, system.min_dimension, system.macaulay))
+    pieces = _refine(_System(smaller, reduced, forbidden, system.least, system.macaulay))
     return tuple(_lifted(piece, substitution.equation) for piece in pieces)
 
 
@@ -266,7 +266,7 @@ def _by_basis(system: _System) -> tuple[Component, ...]:
     if basis[0].is_constant:
         return ()
     dimension = len(independent_variables(leading_exponents(basis), len(system.ring.names)))
-    if dimension < system.min_dimension or any(ideal.contains(p) for p in system.nonzero):
+    if dimension < system.least or any(ideal.contains(p) for p in system.nonzero):
         return ()
     factored = factor_equations(basis, system.nonzero)
     if factored is None:
@@ -286,7 +286,7 @@ def _by_eliminant(system: _System, ideal: Ideal, dimension: int) -> tuple[Compon
     ring, proven = system.ring, ideal.certainty == "proven"
     if len(ideal.generators) == 1:
         return (Component(ideal, proven, dimension, "Cohen-Macaulay"),)
-    found = _analysed(ideal, system.macaulay and system.min_dimension == dimension)
+    found = _analysed(ideal, system.macaulay and system.least == dimension)
     if found.factors and not any(ideal.contains(f) for f in found.factors):
         pieces = [_in_ring(p, ring) for f in found.factors for p in _refine(system.plus(f))]
         return prune(pieces)
@@ -308,9 +308,7 @@ def _by_eliminant(system: _System, ideal: Ideal, dimension: int) -> tuple[Compon
 def _smaller(system: _System, ideal: Ideal, main: Component, beside: Polynomial) -> Iterator[Component]:
     """Pieces that hold the zeros of an ideal outside its main part, all of them zeros of `beside`."""
     # where the main part has the least dimension, what is smaller lies in other branches
-    outside = (
-        [g for g in main.generators if not ideal.contains(g)] if main.dimension > system.min_dimension else []
-    )
+    outside = [g for g in main.generators if not ideal.contains(g)] if main.dimension > system.least else []
     for g in outside:
         rest = _saturated(ideal, g)
         apart = system.plus(beside) if rest is None else system.replaced(rest.generators, same_ideal=False)

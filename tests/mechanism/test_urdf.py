@@ -1,5 +1,6 @@
 """URDF arms against yourdfpy's own forward kinematics in floats."""
 
+import importlib.util
 import io
 import math
 import sys
@@ -12,7 +13,12 @@ import yourdfpy
 
 from singsym.mechanism import JointKind, Mechanism, MechanismError, check
 from singsym.mechanism.urdf import from_urdf, rational_rotation
-from tests.mechanism import arms
+
+_spec = importlib.util.spec_from_file_location("arms", Path(__file__).with_name("arms.py"))
+assert _spec is not None
+assert _spec.loader is not None
+arms = importlib.util.module_from_spec(_spec)
+_spec.loader.exec_module(arms)
 
 JOINTS = [
     ("revolute", "0 0 0.089159", "0 0 0", "0 0 1", "-6.2831853 6.2831853"),

@@ -372,10 +372,10 @@ def _counted(
     return _finite(piece, distinct, system, elsewhere, weakest(piece.extent.bounded, *seen))
 
 
-def _samples(system: RealSystem, nonzero: Equations, borders: Equations) -> Iterator[RealPoint]:
+def _samples(system: RealSystem, away: Equations, borders: Equations) -> Iterator[RealPoint]:
     """A point on each connected component of the zeros, and of those on one border, on two, and so on."""
-    found = sample_points(system.ring, system.closed_equations, nonzero=nonzero)
+    found = sample_points(system.ring, system.closed_equations, nonzero=away)
     yield from found
     for k, border in enumerate(borders if found else ()):
         on_it = replace(system, equations=(*system.equations, border))
-        yield from _samples(on_it, nonzero, borders[k + 1 :])
+        yield from _samples(on_it, away, borders[k + 1 :])

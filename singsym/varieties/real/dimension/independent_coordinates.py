@@ -80,8 +80,8 @@ def is_missed(
     ring = left[0].ring
     if _is_empty(ring, left):
         return True
-    left_nonzero = [q for p in nonzero if not (q := p.substitute(dict(values))).is_constant]
-    return bool(left_nonzero) and _is_empty(*without_zeros_of(ring, left, *left_nonzero))
+    away = [q for p in nonzero if not (q := p.substitute(dict(values))).is_constant]
+    return bool(away) and _is_empty(*without_zeros_of(ring, left, *away))
 
 
 def random_values(ring: Ring, names: tuple[str, ...], random: Random) -> Iterator[tuple[str, Polynomial]]:

@@ -32,7 +32,7 @@ def quotient_algebra_over(
     if easy.is_unit():
         return quotient_algebra(easy.ring, easy.groebner_basis(), check)
     rows = _Rows(easy, hard)
-    for degree in range(rows.lowest_degree, rows.lowest_degree + 12):
+    for degree in range(rows.first, rows.first + 12):
         check()
         rows.extend_to(degree, check)
         if len(rows.columns) > _MOST_COLUMNS:
@@ -60,7 +60,7 @@ class _Rows:
         self.layers: list[list[Exponents]] = [[(0,) * len(self.ring.names)]]
         self.hard = [dict(_terms(f)) for f in (easy.normal_form(f) for f in hard) if f]
         self.degrees = [max(map(sum, f)) for f in self.hard]
-        self.lowest_degree = max(self.degrees, default=1)
+        self.first = max(self.degrees, default=1)
         self.multiples: list[dict[Exponents, Vector]] = [{} for _ in self.hard]
         self.degree = 0
         self.bound = 0

@@ -19,7 +19,7 @@ R = Ring(("x", "y", "z", "w"))
 x, y, z, w = R.gens
 
 
-def smallest_bound(system: RealSystem) -> int:
+def least(system: RealSystem) -> int:
     """The least dimension that is confirmed."""
     return next(d for d in range(len(system.ring.names) + 1) if are_dependent(system, d))
 
@@ -40,21 +40,21 @@ def test_a_union_has_the_dimension_of_its_largest_part(seed: int) -> None:
     parts = flat(first, rng), flat(second, rng)
     products = tuple(p * q for p in parts[0] for q in parts[1])
     assert Ideal(R, products).dimension == 4 - min(first, second)
-    assert smallest_bound(RealSystem(R, products)) == 4 - min(first, second)
+    assert least(RealSystem(R, products)) == 4 - min(first, second)
 
 
 def test_a_part_on_which_a_coordinate_is_constant_counts() -> None:
     """The plane x = y = 0 beside the curve (t, t^2, t^3, 1): only z and w together see it."""
     curve = (y - x**2, z - x**3, w - 1)
-    assert smallest_bound(RealSystem(R, tuple(p * q for p in (x, y) for q in curve))) == 2
+    assert least(RealSystem(R, tuple(p * q for p in (x, y) for q in curve))) == 2
 
 
 def test_what_is_excluded_does_not_count() -> None:
     """Where x = y = 0 is left out, alone or as the zeros of a sum of squares, the curve is left."""
     curve = (y - x**2, z - x**3, w - 1)
     products = tuple(p * q for p in (x, y) for q in curve)
-    assert smallest_bound(RealSystem(R, products, exclusions=((x,),))) == 1
-    assert smallest_bound(RealSystem(R, products, exclusions=((x, y),))) == 1
+    assert least(RealSystem(R, products, exclusions=((x,),))) == 1
+    assert least(RealSystem(R, products, exclusions=((x, y),))) == 1
 
 
 def test_a_circle_is_one_coordinate(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -62,7 +62,7 @@ def test_a_circle_is_one_coordinate(monkeypatch: pytest.MonkeyPatch) -> None:
     names = ("c1", "s1", "c2", "s2")
     c1, s1, c2, s2 = Ring(names).gens
     system = RealSystem(c1.ring, (c1**2 + s1**2 - 1, c2 - c1, s2 - s1))
-    assert smallest_bound(system) == 1
+    assert least(system) == 1
     drawn: list[tuple[str, ...]] = []
     original = independent_coordinates.random_values
 
