@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from singsym.effort.verdict import Verdict
     from singsym.elimination import engines
     from singsym.elimination.ideal import Ideal
-    from singsym.kinematics.own_equation import from_sympy
+    from singsym.kinematics.own_equation import SymbolicSpace, from_sympy
     from singsym.kinematics.reduction import reduce
     from singsym.kinematics.velocity import loop_closure, velocity_equation
     from singsym.mechanism import Mechanism, MechanismError, check, define, dumps, load, loads
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 _HOMES = {
     "singsym.mechanism": ("Mechanism", "MechanismError", "check", "define", "dumps", "load", "loads"),
     "singsym.kinematics.velocity": ("loop_closure", "velocity_equation"),
-    "singsym.kinematics.own_equation": ("from_sympy",),
+    "singsym.kinematics.own_equation": ("SymbolicSpace", "from_sympy"),
     "singsym.kinematics.reduction": ("reduce",),
     "singsym.elimination": ("engines",),
     "singsym.effort.budget": ("Budget",),
@@ -65,6 +65,7 @@ __all__ = [
     "PolynomialMatrix",
     "Ring",
     "SingularityType",
+    "SymbolicSpace",
     "Verdict",
     "at",
     "at_equation",

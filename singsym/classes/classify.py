@@ -222,8 +222,8 @@ class _Work:
         """
         limits = self.limits
         tasks = [self._task(f, f.stratum.defects.delta) for f in found]
-        first = [replace(task, seconds=limits.part(patience.FIRST_LOOK.work)) for task in tasks]
-        realised = self.runner.map(realise, first, "real points", self.ends.pieces)
+        quick = [replace(task, seconds=limits.part(patience.FIRST_LOOK.work)) for task in tasks]
+        realised = self.runner.map(realise, quick, "real points", self.ends.pieces)
         self._look_again(tasks, realised, limits.part(patience.SECOND_LOOK.work), "real points, second look")
         self._look_again(tasks, realised, limits.seconds, "real points, at length", most=1)
         return realised
@@ -259,19 +259,19 @@ class _Work:
         most: the largest known dimension of the classes of strata that are looked at.
         """
         known = known_dimensions(piece for part in realised for piece in part.pieces)
-        least = [min(known.get(p.defects.types, 0) for p in part.pieces) for part in realised]
+        dimensions = [min(known.get(p.defects.types, 0) for p in part.pieces) for part in realised]
         doubtful = [
             i
             for i, part in enumerate(realised)
-            if least[i] <= most and any(is_open(p, known.get(p.defects.types)) for p in part.pieces)
+            if dimensions[i] <= most and any(is_open(p, known.get(p.defects.types)) for p in part.pieces)
         ]
-        doubtful.sort(key=lambda i: least[i])
+        doubtful.sort(key=lambda i: dimensions[i])
         seen = [any(p.verdict.is_yes for p in part.pieces) for part in realised]
         again = [
             replace(
                 tasks[i],
-                seconds=seconds if least[i] <= 1 else self.limits.part(patience.LARGER_PART.work),
-                known=least[i] if least[i] > 1 else None,
+                seconds=seconds if dimensions[i] <= 1 else self.limits.part(patience.LARGER_PART.work),
+                known=dimensions[i] if dimensions[i] > 1 else None,
                 seen=seen[i],
             )
             for i in doubtful

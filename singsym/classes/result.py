@@ -289,14 +289,14 @@ def counts(found: Locus | ClassResult) -> tuple[str, str]:
 
     "?" where one is open, "not counted" where it was not looked for.
     """
-    least = found.extent.at_least
-    if found.verdict.is_no or least > 1:
+    at_least = found.extent.at_least
+    if found.verdict.is_no or at_least > 1:
         return "", ""
     missing = "not counted" if found.remark and not found.open else "?"
     points, components = (missing if x is None else str(x) for x in (found.points, found.components))
     if found.dimension == 0 and found.components is None:
         components = "" if found.points is not None else missing
-    return ("" if least == 1 else points), components
+    return ("" if at_least == 1 else points), components
 
 
 def conditions_latex(pieces: Sequence[Piece]) -> str:

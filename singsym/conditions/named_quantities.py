@@ -161,13 +161,13 @@ class PointNames:
                 words = f"{', '.join(sorted(triple))} collinear"
                 yield _cross(a, b), Quantity(rf"\pm|{latex}|", f"±|{p}{q} x {p}{r}|", words)
         for base, other in islice(combinations(names, 2), MANY // 10):
-            away = _subtract(self._points[other], self._points[base])
+            arm = _subtract(self._points[other], self._points[base])
             for u, axis in axes.items():
-                if sum(len(e) for e in (*away, *axis)) < 24:
+                if sum(len(e) for e in (*arm, *axis)) < 24:
                     latex = rf"\overrightarrow{{{_symbol(base)}{_symbol(other)}}} \times {_symbol(u)}"
                     words = f"{other} on the axis {u} through {base}"
                     yield (
-                        _cross(away, axis),
+                        _cross(arm, axis),
                         Quantity(rf"\pm|{latex}|", f"±|{base}{other} x {u}|", words),
                     )
 

@@ -2,7 +2,7 @@
 
 from singsym.kinematics.formulations import FORMULATIONS, place
 from singsym.kinematics.mobility import Mobility, check_mobility
-from singsym.kinematics.own_equation import from_sympy
+from singsym.kinematics.own_equation import SymbolicSpace, from_sympy
 from singsym.kinematics.placement import ConfigurationSpace, JointValue, Placement
 from singsym.kinematics.sampling import sample_configurations
 from singsym.kinematics.velocity import Column, VelocityEquation, loop_closure, velocity_equation
@@ -14,6 +14,7 @@ __all__ = [
     "JointValue",
     "Mobility",
     "Placement",
+    "SymbolicSpace",
     "VelocityEquation",
     "check_mobility",
     "from_sympy",

@@ -76,14 +76,14 @@ class Dimensions:
         for expression in (*expressions, *bounds):
             if expression is not None:
                 _collect(sympy.sympify(expression, strict=True).xreplace(values), atoms, roots)
-        taken = {p.name for p in ranges}
+        used = {p.name for p in ranges}
         auxiliaries = []
         for base, index in roots:
             stem = "inverse" if index < 0 else "root"
             name = next(
-                n for n in (f"{stem}{k}" for k in range(1, len(roots) + len(taken) + 2)) if n not in taken
+                n for n in (f"{stem}{k}" for k in range(1, len(roots) + len(used) + 2)) if n not in used
             )
-            taken.add(name)
+            used.add(name)
             auxiliaries.append(Auxiliary(name, base, index))
         return cls(ranges, values, number_field(atoms), tuple(auxiliaries))
 
@@ -241,17 +241,17 @@ class VariableNames:
     ('a_', 'B_x', 'B_x_')
     """
 
-    def __init__(self, taken: set[str]) -> None:
-        self.taken = set(taken)
+    def __init__(self, used: set[str]) -> None:
+        self.used = set(used)
 
     def new(self, wish: str) -> str:
         """The wish, made a word and, where it is taken, longer by underscores."""
         name = "".join(c if c.isascii() and c.isalnum() else "_" for c in wish)
         if not name[:1].isalpha():
             name = f"v{name}"
-        while name in self.taken:
+        while name in self.used:
             name += "_"
-        self.taken.add(name)
+        self.used.add(name)
         return name
 
 
@@ -356,8 +356,8 @@ def dimensions(mechanism: Mechanism, variables: Sequence[str]) -> Sized:
     Q[x]
     """
     found = Dimensions.of(mechanism)
-    taken = {*variables, *(a.name for a in found.auxiliaries), *(c.name for c in found.constants)}
-    doubled = [p.name for p in found.ranges if p.name in taken]
+    used = {*variables, *(a.name for a in found.auxiliaries), *(c.name for c in found.constants)}
+    doubled = [p.name for p in found.ranges if p.name in used]
     if doubled:
         said, expected = "the name of a configuration variable or a number, too", "another name"
         advice = "rename the parameter"

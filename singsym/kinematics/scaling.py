@@ -161,8 +161,8 @@ def _spread(places: Sequence[Sequence[float]]) -> float:
 
     if not places:
         return 0.0
-    away = np.array(places) - np.mean(places, axis=0)
-    spread = float(np.sqrt((away**2).sum(axis=1).mean()))
+    offsets = np.array(places) - np.mean(places, axis=0)
+    spread = float(np.sqrt((offsets**2).sum(axis=1).mean()))
     return spread if spread > 1e-12 * float(np.abs(places).max()) else 0.0
 
 

@@ -76,8 +76,8 @@ def _read_output(value: Any, place: str, links: Sequence[Link], reader: Reader) 
         reader.report(f"{place}.components", "an empty list", "one component or more")
     if kinds[0] == "twist":
         body = next((link for link in links if link.name == what), None)
-        first = next(iter(body.points), "") if body is not None else ""
-        point = reader.text(entry.get("at", first), f"{place}.at")
+        default = next(iter(body.points), "") if body is not None else ""
+        point = reader.text(entry.get("at", default), f"{place}.at")
         return Twist(what, point, chosen or TWISTS[reader.space])
     carriers = [link.name for link in links if what in link.points]
     if not carriers:

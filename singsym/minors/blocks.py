@@ -37,11 +37,6 @@ class BlockForm:
         return not (self.wide[1] or self.tall[0])
 
     @property
-    def structural_rank(self) -> int:
-        """The size of a maximum matching: the largest rank that the zeros allow."""
-        return len(self.wide[0]) + sum(len(rows) for rows, _ in self.square) + len(self.tall[1])
-
-    @property
     def row_order(self) -> tuple[int, ...]:
         """The permutation of the rows."""
         return (*self.wide[0], *(i for rows, _ in self.square for i in rows), *self.tall[0])

@@ -135,7 +135,7 @@ def condense(
     >>> condense(matrix, anywhere)[1]
     (x, 1)
     """
-    taken: list[Polynomial] = []
+    contents: list[Polynomial] = []
     while (place := _condensable(matrix)) is not None:
         rows, columns = place
         block = matrix.select(rows, columns)
@@ -147,8 +147,8 @@ def condense(
         for w in signed:
             common = common.gcd(w) if common else w
         if common.is_zero:
-            return PolynomialMatrix.of(matrix.ring, [[matrix.ring.zero]]), tuple(taken)
-        taken.append(common.primitive())
+            return PolynomialMatrix.of(matrix.ring, [[matrix.ring.zero]]), tuple(contents)
+        contents.append(common.primitive())
         signed = [w.exact_quotient(common) for w in signed]
         others = [j for j in range(matrix.width) if j not in columns]
         combined = [
@@ -159,7 +159,7 @@ def condense(
         ]
         rest = matrix.select([i for i in range(matrix.shape[0]) if i not in rows], others)
         matrix = PolynomialMatrix(matrix.ring, (*rest.rows, tuple(combined)), len(others))
-    return matrix, tuple(taken)
+    return matrix, tuple(contents)
 
 
 def _condensable(matrix: PolynomialMatrix) -> tuple[tuple[int, ...], tuple[int, ...]] | None:
@@ -189,7 +189,7 @@ def determinant_factors(
     for rows, columns in form.square:
         block = matrix.select(rows, columns)
         if len(rows) > CONDENSED:
-            block, taken = condense(block, certifier)
-            parts += taken
+            block, contents = condense(block, certifier)
+            parts += contents
         parts += block_determinants(block, limit)
     return factored(parts, certifier)

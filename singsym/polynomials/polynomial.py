@@ -313,8 +313,8 @@ class Polynomial:
         """
         if len(self) <= longest:
             return str(self)
-        first = self.ring.from_dict(dict(self.terms()[:longest]))
-        return f"{first} + ... ({len(self) - longest} more terms)"
+        head = self.ring.from_dict(dict(self.terms()[:longest]))
+        return f"{head} + ... ({len(self) - longest} more terms)"
 
     def __bool__(self) -> bool:
         return not self.is_zero

@@ -66,13 +66,13 @@ def _smallest_cover(supports: list[frozenset[int]]) -> frozenset[int]:
     """A smallest set of indices that meets all supports, by branch and bound."""
     best = frozenset[int]().union(*supports)
 
-    def search(left: list[frozenset[int]], taken: frozenset[int]) -> None:
+    def search(left: list[frozenset[int]], chosen: frozenset[int]) -> None:
         nonlocal best
         if not left:
-            best = taken if len(taken) < len(best) else best
-        elif len(taken) + 1 < len(best):
+            best = chosen if len(chosen) < len(best) else best
+        elif len(chosen) + 1 < len(best):
             for i in sorted(sorted(left, key=len)[0]):
-                search([s for s in left if i not in s], taken | {i})
+                search([s for s in left if i not in s], chosen | {i})
 
     search(supports, frozenset())
     return best
@@ -118,15 +118,15 @@ def coordinates(ideal: Ideal, rng: Random) -> Iterator[Known[Coordinates]]:
     basis = premises.take(ideal.groebner_basis())
     chosen = independent_variables(leading_exponents(basis), len(ring.names))
     last = tuple(ring.names[i] for i in chosen)
-    first = tuple(n for n in ring.names if n not in last)
-    turned = Ring(first + last, "degrevlex", ring.constants)
+    dependent = tuple(n for n in ring.names if n not in last)
+    turned = Ring(dependent + last, "degrevlex", ring.constants)
     if turned.names != ring.names:
         basis = premises.take(Ideal(turned, tuple(turned.convert(p) for p in basis)).groebner_basis())
     yield premises.conclude(Coordinates(turned, basis, len(last), ring))
     if not last:
         return
     constants = {c.name for c in ring.constants}
-    movable = [n for n in first if n not in constants]
+    movable = [n for n in dependent if n not in constants]
     for _ in range(2):
         shift = {
             u: sum((turned.gen(n) * rng.choice((-1, 1, 2)) for n in movable), start=turned.zero) for u in last

@@ -149,8 +149,7 @@ def torsion_support(module: Presentation, rng: Random) -> list[list[fmpq]]:
     characteristic = fmpq_mat([list(row) for row in module.action]).charpoly()
     entries = [c for row in module.action for c in row] + [c for r in module.rest for c in r.values()]
     prime = next(random_primes("torsion", bits=62, avoiding=(int(c.q) for c in entries)))
-    first = nmod_poly([_residue(c, prime) for c in characteristic.coeffs()], prime)
-    common = first
+    common = nmod_poly([_residue(c, prime) for c in characteristic.coeffs()], prime)
     for _ in range(2):
         common = common.gcd(_determinant(module, rng, prime))
         if common.degree() == 0:

@@ -4,7 +4,7 @@ import sympy
 
 from singsym.classes.classify import classify_equation
 from singsym.classes.taxonomy.types import SingularityType
-from singsym.kinematics.own_equation import from_sympy
+from singsym.kinematics.own_equation import SymbolicSpace, from_sympy
 
 RI, RO, II, IO = SingularityType.RI, SingularityType.RO, SingularityType.II, SingularityType.IO
 
@@ -13,7 +13,7 @@ def classified(entry_T: sympy.Expr, entry_A: sympy.Expr):
     """On the unit circle, entry_T T + entry_A A = 0: (4) is entry_T = 0, (5) is entry_A = 0."""
     x, y = sympy.symbols("x y")
     columns = [("T", "output"), ("A", "input")]
-    equation = from_sympy(sympy.Matrix([[entry_T, entry_A]]), columns, [x**2 + y**2 - 1])
+    equation = from_sympy(sympy.Matrix([[entry_T, entry_A]]), columns, SymbolicSpace([x**2 + y**2 - 1]))
     return classify_equation(None, equation, cache=False)
 
 
@@ -46,6 +46,6 @@ def test_both_conditions_at_once_is_increased_mobility():
 def test_ranks_of_a_given_matrix_do_not_say_whether_the_space_is_smooth():
     """T + A = 0 never loses rank, on the cross x y = 0, which is singular at (0, 0)."""
     x, y = sympy.symbols("x y")
-    equation = from_sympy(sympy.Matrix([[1, 1]]), [("T", "output"), ("A", "input")], [x * y])
+    equation = from_sympy(sympy.Matrix([[1, 1]]), [("T", "output"), ("A", "input")], SymbolicSpace([x * y]))
     (space,) = classify_equation(None, equation, cache=False).configuration_space
     assert (space.dimension, space.smooth) == (1, "undecided")

@@ -36,8 +36,8 @@ def classifying(
     )
     try:
         # an engine; or the fork server, its resource tracker and the workers
-        least, end = 1 if workers == 1 else 2 + workers, time.monotonic() + 60
-        while len(children := psutil.Process(process.pid).children(recursive=True)) < least:
+        expected, end = 1 if workers == 1 else 2 + workers, time.monotonic() + 60
+        while len(children := psutil.Process(process.pid).children(recursive=True)) < expected:
             assert time.monotonic() < end
             time.sleep(0.1)
         time.sleep(1)

@@ -1,9 +1,5 @@
 """The conditions of the 2-DOF linkage against section 3.3 of Zlatanov, Fenton, Benhabib (1998)."""
 
-import importlib.util
-import sys
-from pathlib import Path
-
 import pytest
 
 from singsym.conditions.conditions import LABELS, Conditions
@@ -15,16 +11,7 @@ from singsym.kinematics.reduction import reduce
 from singsym.kinematics.velocity import velocity_equation
 from singsym.mechanism import load
 from singsym.polynomials import Ring
-
-_spec = importlib.util.spec_from_file_location(
-    "two_dof", Path(__file__).parents[1] / "kinematics" / "two_dof.py"
-)
-assert _spec is not None
-assert _spec.loader is not None
-linkage = importlib.util.module_from_spec(_spec)
-sys.modules["two_dof"] = linkage
-_spec.loader.exec_module(linkage)
-collinear, two_dof = linkage.collinear, linkage.two_dof
+from tests.kinematics.two_dof import collinear, two_dof
 
 
 @pytest.fixture(scope="module")

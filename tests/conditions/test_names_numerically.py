@@ -4,11 +4,9 @@ Source: independent of the recognition: the left side is read as it is printed a
 the places of the named points and axes, the right side by SymPy from the printed text.
 """
 
-import importlib.util
 import itertools
 import re
 from collections.abc import Mapping
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -25,14 +23,7 @@ from singsym.mechanism import load
 from singsym.mechanism.library import names
 from singsym.polynomials import AlgebraicConstant, Ring
 from singsym.polynomials.latex import symbol_latex
-
-_spec = importlib.util.spec_from_file_location(
-    "numerically", Path(__file__).with_name("test_conditions_numerically.py")
-)
-assert _spec is not None
-assert _spec.loader is not None
-numerically = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(numerically)
+from tests.conditions import test_conditions_numerically as numerically
 
 Places = Mapping[str, np.ndarray]
 

@@ -6,7 +6,6 @@ import multiprocessing
 import os
 import subprocess
 import sys
-from fractions import Fraction
 
 import pytest
 
@@ -25,39 +24,47 @@ needs_msolve = pytest.mark.skipif(not registry.msolve.available(), reason="msolv
 
 @pytest.mark.engines
 @needs_msolve
-def test_real_boxes() -> None:
-    boxes = registry.msolve.real_boxes((x**2 - 2, 3 * y - x + 1), R)
-    assert len(boxes) == 2
-    for box in boxes:
-        low, high = box["x"]
-        assert min(low**2, high**2) <= 2 <= max(low**2, high**2)
-        assert high - low < Fraction(1, 2**100)
-    assert registry.msolve.real_boxes((x**2 + 1, y), R) == ()
-    assert registry.msolve.real_boxes((x**2 + 1, x - 1, y), R) == ()
-    assert registry.msolve.real_boxes((x, R.one), R) == ()
+def test_parametrization() -> None:
+    """x = 3 y + 1 and x^2 = 2: 9 y^2 + 6 y - 1 = 0; x^2 + 1 has complex zeros, with x = 1 none."""
+    found = registry.msolve.parametrization((x**2 - 2, 3 * y - x + 1), R)
+    assert found is not None
+    assert (found.order[-1], found.minimal) == (1, (-1, 6, 9))
+    for root in ((-1 + 2**0.5) / 3, (-1 - 2**0.5) / 3):
+        below, above = (
+            sum(c * root**k for k, c in enumerate(p)) for p in (found.denominator, found.numerators[0])
+        )
+        assert -above / (found.divisors[0] * below) == pytest.approx(3 * root + 1)
+    complex_points = registry.msolve.parametrization((x**2 + 1, y), R)
+    assert complex_points is not None
+    assert len(complex_points.minimal) == 3
+    assert registry.msolve.parametrization((x**2 + 1, x - 1, y), R) is None
+    assert registry.msolve.parametrization((x, R.one), R) is None
     for positive_dimensional in ((x**2 - 2,), (x * y, x**2 - x)):
         with pytest.raises(NotZeroDimensional):
-            registry.msolve.real_boxes(positive_dimensional, R)
+            registry.msolve.parametrization(positive_dimensional, R)
 
 
 def test_msolve_output_is_read_strictly() -> None:
-    one = Ring(("x",))
-    assert msolve._read_boxes("[-1]:\n", one) == ()
-    assert msolve._read_boxes("[0, [1,\n[[[-3 / 2^1, 7]], [[8, 9]]]\n]]:\n", one) == (
-        {"x": (Fraction(-3, 2), Fraction(7))},
-        {"x": (Fraction(8), Fraction(9))},
-    )
+    """The text is what msolve prints of x = 3 y + 1, x^2 = 2: see `test_parametrization`."""
+    assert msolve._read_parametrization("[-1]:\n") is None
+    head = "[0, [0, 2, 2, ['x1', 'x2'], [0, 1], [1, [[2, [-1, 6, 9]], [1, [6, 18]], "
+    found = msolve._read_parametrization(head + "[[[1, [-12, 0]], 1]]]]]]:\n")
+    assert found == msolve.RawParametrization((0, 1), (0, 1), (-1, 6, 9), (6, 18), ((-12, 0),), (1,))
     with pytest.raises(NotZeroDimensional):
-        msolve._read_boxes("[1, 3, -1, []]:", one)
+        msolve._read_parametrization("[1, 3, -1, []]:")
     for rubbish in (
         "",
-        "[0, [1, [[[2, 1]]]]]:",
-        "[0, [1, [[[1, 2], [1, 2]]]]]:",
-        "[0, [1, [[1, 2]]]]:",
+        "[0, [1, []]]:",
         "[0, [1",
+        "[0, [0, 2, 2, ['x1'], [0, 1], [1, []]]]:",
+        head + "[[[1, [-12, 0]]]]]]]]:",
+        head + "[[-12, 1]]]]]]:",
+        head + "[[[1, [[-12], 0]], 1]]]]]]:",
+        head + "[[[1, [-12, 0]], [1]]]]]]]:",
+        head + "[[[1, [-12, 0.5]], 1]]]]]]:",
     ):
         with pytest.raises(EngineFailure):
-            msolve._read_boxes(rubbish, one)
+            msolve._read_parametrization(rubbish)
 
 
 def test_status_has_what_a_user_asks() -> None:

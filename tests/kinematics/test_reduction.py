@@ -3,10 +3,7 @@
 Source: the 2-DOF linkage is written by hand from (6) of Zlatanov, Fenton, Benhabib (1998).
 """
 
-import importlib.util
-import sys
 from itertools import chain, combinations
-from pathlib import Path
 
 from flint import fmpq, fmpq_mat
 from hypothesis import given, settings
@@ -16,14 +13,7 @@ from singsym.kinematics.nonzero import Certifier
 from singsym.kinematics.placement import ConfigurationSpace
 from singsym.kinematics.reduction import eliminate, reduce, reduce_submatrix
 from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
-
-_spec = importlib.util.spec_from_file_location("two_dof", Path(__file__).with_name("two_dof.py"))
-assert _spec is not None
-assert _spec.loader is not None
-linkage = importlib.util.module_from_spec(_spec)
-sys.modules["two_dof"] = linkage
-_spec.loader.exec_module(linkage)
-collinear, two_dof = linkage.collinear, linkage.two_dof
+from tests.kinematics.two_dof import collinear, two_dof
 
 
 def rank(matrix: PolynomialMatrix, point: list[fmpq]) -> int:

@@ -7,13 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import sympy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from singsym.kinematics import (
     check_mobility,
-    from_sympy,
     loop_closure,
     sample_configurations,
     velocity_equation,
@@ -21,7 +19,7 @@ from singsym.kinematics import (
 from singsym.kinematics.numerical_rank import numerical_rank
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism import load
-from singsym.mechanism.model import JointRate, Mechanism, Parameter, PointVelocity, Twist
+from singsym.mechanism.model import JointRate, Mechanism, PointVelocity, Twist
 from singsym.polynomials.compiled_map import numerical_matrix
 from tests.kinematics.linkages import crane
 
@@ -178,49 +176,3 @@ def test_equations_are_pickled() -> None:
     equation = velocity_equation(load("five-bar"))
     assert pickle.loads(pickle.dumps(equation)) == equation
     assert loop_closure(load("five-bar")) == equation.space
-
-
-def test_a_matrix_of_ones_own() -> None:
-    """2R with link lengths 1 and a, 0 < a < 2: det of the output rows is a sin(t2)."""
-    t1, t2, a = sympy.symbols("t1 t2 a")
-    x = sympy.cos(t1) + a * sympy.cos(t1 + t2)
-    y = sympy.sin(t1) + a * sympy.sin(t1 + t2)
-    J = sympy.Matrix([x, y]).jacobian([t1, t2])
-    L = sympy.eye(2).row_join(-J)
-    columns = [("x", "output"), ("y", "output"), ("A", "input"), ("B", "input")]
-    found = from_sympy(L, columns, [], parameters=[Parameter("a", None, sympy.Integer(0), sympy.Integer(2))])
-    ring = found.space.ring
-    assert ring.names == ("c_t1", "c_t2", "s_t1", "s_t2", "a")
-    assert len(found.space.equations) == 2
-    assert found.space.positive == (ring.gen("a"), 2 - ring.gen("a"))
-    M = found.L_O
-    determinant = M[0, 0] * M[1, 1] - M[0, 1] * M[1, 0]
-    circle = ring.gen("c_t1") ** 2 + ring.gen("s_t1") ** 2
-    assert circle - 1 in found.space.equations
-    assert determinant == circle * ring.gen("s_t2") * ring.gen("a")
-    assert check_mobility(found).messages == ()
-
-
-def test_irrational_numbers_in_a_matrix_of_ones_own() -> None:
-    x = sympy.Symbol("x")
-    found = from_sympy(sympy.Matrix([[1, x / sympy.sqrt(3)]]), [("T", "output"), ("A", "input")], [x**2 - 2])
-    ring = found.space.ring
-    assert ring.names == ("x", "sqrt3")
-    assert found.matrix[0, 1] == ring.gen("x") * ring.gen("sqrt3") / 3
-
-
-@pytest.mark.parametrize(
-    ("entry", "columns", "message"),
-    [
-        ("1/x", [("T", "output"), ("A", "input")], "polynomial"),
-        ("x", [("T", "output")], "columns"),
-        ("x", [("T", "output"), ("A", "driver")], "roles"),
-        ("x", [("T", "output"), ("A", "passive")], "mobility"),
-        ("sin(x**2)", [("T", "output"), ("A", "input")], "sines and cosines"),
-    ],
-)
-def test_matrices_that_do_not_fit(entry: str, columns: list[tuple[str, str]], message: str) -> None:
-    x = sympy.Symbol("x")
-    entries = {"1/x": 1 / x, "x": x, "sin(x**2)": sympy.sin(x**2)}
-    with pytest.raises(ValueError, match=message):
-        from_sympy(sympy.Matrix([[1, entries[entry]]]), columns, [])  # type: ignore[arg-type]

@@ -1,47 +1,10 @@
 """The 2-DOF linkage by hand, from (6) of Zlatanov, Fenton, Benhabib (1998), in point coordinates."""
 
-from dataclasses import dataclass
+from __future__ import annotations
 
 from singsym.kinematics.placement import ConfigurationSpace
+from singsym.kinematics.velocity import Column, Role, VelocityEquation
 from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
-
-
-@dataclass(frozen=True)
-class Column:
-    label: str
-    role: str
-
-
-@dataclass(frozen=True)
-class Equation:
-    """What the reduction and the conditions need to know of a velocity equation."""
-
-    space: ConfigurationSpace
-    matrix: PolynomialMatrix
-    columns: tuple[Column, ...]
-    rows: tuple[str, ...]
-    N: int
-    n: int
-
-    def without(self, *roles: str) -> PolynomialMatrix:
-        return self.matrix.select(columns=[j for j, c in enumerate(self.columns) if c.role not in roles])
-
-    @property
-    def L(self) -> PolynomialMatrix:
-        return self.matrix
-
-    @property
-    def L_I(self) -> PolynomialMatrix:
-        return self.without("input")
-
-    @property
-    def L_O(self) -> PolynomialMatrix:
-        return self.without("output")
-
-    @property
-    def L_p(self) -> PolynomialMatrix:
-        return self.without("input", "output")
-
 
 RING = Ring(("xB", "yB", "xC", "yC", "xF", "yF", "xG", "yG"))
 _xB, _yB, _xC, _yC, _xF, _yF, _xG, _yG = RING.gens
@@ -63,7 +26,7 @@ def collinear(p: str, q: str, r: str) -> Polynomial:
     return (qx - px) * (ry - py) - (qy - py) * (rx - px)
 
 
-def two_dof() -> Equation:
+def two_dof() -> VelocityEquation:
     """AB = BC = 1, CD = FG = 2, CG = 3/2, EF = 3; inputs at A and E, output the velocity of G."""
     loops = []
     for p, q, square in [
@@ -92,7 +55,7 @@ def two_dof() -> Equation:
             x, y = POINTS[p]
             for k, entry in enumerate((RING.one, y, -x)):
                 rows[start + k][labels.index(label)] = entry
-    roles = ["output"] * 2 + ["input"] * 2 + ["passive"] * 6
+    roles: list[Role] = [*["output"] * 2, *["input"] * 2, *["passive"] * 6]
     columns = tuple(Column(label, role) for label, role in zip(labels, roles, strict=True))
     names = ("G x", "G y", *(f"loop {k} {c}" for k in (1, 2) for c in ("w", "vx", "vy")))
-    return Equation(space, PolynomialMatrix.of(RING, rows), columns, names, 8, 2)
+    return VelocityEquation(space, PolynomialMatrix.of(RING, rows), columns, names, 8, 2)

@@ -94,8 +94,8 @@ def test_every_class_has_its_mechanism() -> None:
 def test_the_smallest_mechanism_has_the_smallest_mobility_that_the_class_allows() -> None:
     """n = 1 for 9 classes, 2 for all others but two, which need 3."""
     for c in feasible_classes():
-        least = next(n for n in (1, 2, 3) if c in feasible_classes(n))
-        assert load(SMALLEST[c.name]).n == least
+        smallest = next(n for n in (1, 2, 3) if c in feasible_classes(n))
+        assert load(SMALLEST[c.name]).n == smallest
 
 
 @pytest.mark.slow

@@ -49,13 +49,13 @@ def class_at(equation: VelocityEquation, at: dict[str, Vector], ways: dict[str, 
     """
     found = {"sqrt3": np.sqrt(3)}
     for leg, foot in feet(equation).items():
-        away = at[leg] - foot
-        flat = np.array([*away[:2], 0.0])
+        span = at[leg] - foot
+        flat = np.array([*span[:2], 0.0])
         way = (ways or {}).get(leg, flat)
         way = way / np.linalg.norm(way)
-        reach, height = float(away @ way), float(away[2])
+        reach, height = float(span @ way), float(span[2])
         size = np.hypot(reach, height)
-        assert np.allclose(away, reach * way + height * UP)
+        assert np.allclose(span, reach * way + height * UP)
         middle, half = np.arctan2(height, reach), np.arccos(min(size / 2, 1.0))
         angles = {"1": np.arctan2(way[1], way[0]), "2": middle + half, "23": middle - half}
         for joint, angle in angles.items():

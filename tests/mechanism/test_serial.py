@@ -1,20 +1,13 @@
 """DH rows against products of homogeneous matrices, multiplied out in floats."""
 
-import importlib.util
 import math
 import random
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from singsym.mechanism import MechanismError, define, load
-
-_spec = importlib.util.spec_from_file_location("arms", Path(__file__).with_name("arms.py"))
-assert _spec is not None
-assert _spec.loader is not None
-arms = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(arms)
+from tests.mechanism import arms
 
 
 def step(axis: str, angle: float = 0.0, length: float = 0.0) -> np.ndarray:

@@ -140,9 +140,9 @@ FREE = Certifier(ConfigurationSpace(R, ()))
 )
 def test_condensation_keeps_the_determinant_up_to_a_constant(rows: list[list[Polynomial]]) -> None:
     matrix = PolynomialMatrix.of(R, rows)
-    rest, taken = condense(matrix, FREE)
+    rest, contents = condense(matrix, FREE)
     product = determinant(rest)
-    for factor in taken:
+    for factor in contents:
         product = product * factor
     assert product.primitive() == determinant(matrix).primitive()
 

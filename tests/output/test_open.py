@@ -21,7 +21,7 @@ from singsym.classes.taxonomy.types import SingularityType
 from singsym.conditions.conditions import Conditions, conditions
 from singsym.effort.chance import use_seed
 from singsym.effort.verdict import Verdict
-from singsym.kinematics import from_sympy
+from singsym.kinematics import SymbolicSpace, from_sympy
 from singsym.kinematics.velocity import velocity_equation
 from singsym.mechanism import define, load
 from singsym.output.html.gallery import card
@@ -215,7 +215,7 @@ def idle_input() -> Conditions:
     """L = (0, -s) for (T, A): L_I = (0) is singular everywhere, L_O = (-s) where s = 0."""
     c, s = sympy.symbols("c s")
     columns = [("T", "output"), ("A", "input")]
-    return conditions(from_sympy(sympy.Matrix([[0, -s]]), columns, [c**2 + s**2 - 1]))
+    return conditions(from_sympy(sympy.Matrix([[0, -s]]), columns, SymbolicSpace([c**2 + s**2 - 1])))
 
 
 def test_a_condition_that_holds_everywhere_or_nowhere() -> None:

@@ -21,8 +21,8 @@ def test_a_range_holds_all_values(c: list[int], a: Fraction, b: Fraction, s: Fra
     p = R.constant(c[0]) + c[1] * x + c[2] * y + c[3] * x * y + c[4] * x**2 + c[5] * x * y**3
     low, high = min(a, b), max(a, b)
     point = {"x": low + s * (high - low), "y": low + t * (high - low)}
-    least, most = polynomial_range(p, {"x": (low, high), "y": (low, high)})
-    assert least <= fraction(as_fmpq(p.evaluate([point["x"], point["y"]]))) <= most
+    lowest, highest = polynomial_range(p, {"x": (low, high), "y": (low, high)})
+    assert lowest <= fraction(as_fmpq(p.evaluate([point["x"], point["y"]]))) <= highest
 
 
 @given(st.fractions(min_value=0, max_value=10**6))

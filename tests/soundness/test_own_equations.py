@@ -10,7 +10,7 @@ import sympy
 
 from singsym.classes.classify import classify_equation
 from singsym.classes.taxonomy.types import Defects, SingularityType
-from singsym.kinematics.own_equation import from_sympy
+from singsym.kinematics.own_equation import SymbolicSpace, from_sympy
 from tests.soundness.exact_ranks import defects
 
 T = SingularityType
@@ -42,7 +42,7 @@ def test_a_rank_on_a_curve_whose_minors_vanish_in_different_points() -> None:
     assert curve.subs(at_origin) == curve.subs(at_vertex) == 0
     assert defects(L, columns, at_origin, 4, 1) == Defects(2, 2, 2, 2)
     assert defects(L, columns, at_vertex, 4, 1) == Defects(2, 1, 2, 2)
-    result = classify_equation(None, from_sympy(L, columns, [curve]), cache=False)
+    result = classify_equation(None, from_sympy(L, columns, SymbolicSpace([curve])), cache=False)
     assert {k.types: k.points for k in result.classes if not k.verdict.is_no} == {
         T.RPM | T.IIM: 1,
         T.RI | T.RO | T.RPM | T.IIM: 1,
@@ -65,7 +65,7 @@ def test_a_plane_that_two_equations_share() -> None:
     for on_plane in ({x: 100, y: 80, z: 5, w: 7}, {x: 100, y: 80, z: -3, w: 11}):
         assert [q.subs(on_plane) for q in loops] == [0, 0]
         assert defects(L, columns, on_plane, 2, 2) == Defects(0, 0, 0, 1)
-    result = classify_equation(None, from_sympy(L, columns, loops), cache=False)
+    result = classify_equation(None, from_sympy(L, columns, SymbolicSpace(loops)), cache=False)
     assert {k.types: k.dimension for k in result.classes if not k.verdict.is_no} == {T.RI | T.IO: 2}
     assert [locus.dimension for locus in result.loci] == [2]
 
@@ -93,7 +93,7 @@ def test_circles_in_two_planes(loops: list[sympy.Expr], sheet: sympy.Symbol) -> 
     rest = {s: 0, x: sympy.Rational(3, 5), y: sympy.Rational(4, 5)}
     assert defects(L, columns, {sheet: 1, **rest}, 2, 2) == Defects(0, 0, 1, 1)
     assert defects(L, columns, {sheet: other, **rest}, 2, 2) == Defects(0, 0, 0, 1)
-    result = classify_equation(None, from_sympy(L, columns, loops), cache=False)
+    result = classify_equation(None, from_sympy(L, columns, SymbolicSpace(loops)), cache=False)
     assert {k.types: (k.dimension, k.components) for k in result.classes if not k.verdict.is_no} == {
         T.RI | T.IO: (1, 1),
         T.RI | T.RO | T.II | T.IO: (1, 1),

@@ -156,8 +156,10 @@ def _exact_analysis(
             point: Any = [number(v) for v in values] if digits > DOUBLE_DIGITS else np.array(values, float)
             scaled = scaled_matrix(equation, point)
             found = {name: numerical_rank(part, 0.0) for name, part in scaled.submatrices().items()}
-            least = min((f.singular_values[ranks[k] - 1] for k, f in found.items() if ranks[k]), default=1.0)
-            if least > 10.0 ** (-digits / 2) or digits > _MOST_DIGITS:
+            smallest = min(
+                (f.singular_values[ranks[k] - 1] for k, f in found.items() if ranks[k]), default=1.0
+            )
+            if smallest > 10.0 ** (-digits / 2) or digits > _MOST_DIGITS:
                 break
         digits *= 2
     floats = np.array([float(x) for x in point])

@@ -106,7 +106,7 @@ def points_off_exclusions(system: RealSystem) -> Known[tuple[RealPoint, ...]]:
 
 def _off_exclusions(system: RealSystem) -> tuple[Ring, tuple[Polynomial, ...]]:
     """The equations with a variable for the inverse of each exclusion's sum of squares (Rabinowitsch)."""
-    return without_zeros_of(system.ring, system.closed_equations, *system.away)
+    return without_zeros_of(system.ring, system.closed_equations, *system.exclusion_polynomials)
 
 
 def larger_parts(system: RealSystem, dimension: int) -> Iterator[tuple[int, Witness]]:

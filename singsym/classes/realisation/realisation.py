@@ -389,7 +389,7 @@ def _counted(
     if piece.dimension != 0 or piece.points is not None:
         return piece, points
     try:
-        samples = _samples(system, system.away, system.nonnegative)
+        samples = _samples(system, system.exclusion_polynomials, system.nonnegative)
     except Undecided as reason:
         return replace(piece, extent=replace(piece.extent, open=f"points not counted: {reason}")), points
     distinct: list[RealPoint] = []

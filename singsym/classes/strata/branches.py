@@ -18,7 +18,7 @@ from singsym.classes.strata.occurrence import (
     samples_of,
 )
 from singsym.classes.strata.patches import Patch, patches, unsplit
-from singsym.classes.strata.ranks import Least, RankProblem, Stratum, ranked
+from singsym.classes.strata.ranks import DefectBounds, RankProblem, Stratum, ranked
 from singsym.classes.strata.reflections import IDENTITY, Reflection, compose, image, keeps, representatives
 from singsym.classes.taxonomy.types import SingularityType
 from singsym.effort import patience
@@ -43,12 +43,12 @@ class Branch:
 
     equations: its closed conditions, loop equations included; path: the factors and minors among them, as
         they are printed.
-    away: loci that other branches search, left out here.
+    removed: loci that are left out here, as other branches search them.
     feasible: the exclusions and inequalities of the feasible set Omega (its equations are not used).
-    first, least, evident: see `ranks.ranked`.
+    first_matrix, defect_bounds, complete_types: see `ranks.ranked`.
     symmetries: reflections that keep the whole problem; images: those under which this part stands for
         other parts, which are not searched.
-    elsewhere: sets that other branches search; their points are not counted here.
+    elsewhere: loci whose points another branch counts.
     splits: how often it was split by a variable without knowing a point.
     seconds, memory_mb: the budget of the decomposition.
     """
@@ -57,10 +57,10 @@ class Branch:
     feasible: RealSystem
     equations: Equations
     path: Equations = ()
-    away: tuple[Equations, ...] = ()
-    first: str = "L_O"
-    least: tuple[tuple[str, int], ...] = ()
-    evident: tuple[SingularityType, ...] = ()
+    removed: tuple[Equations, ...] = ()
+    first_matrix: str = "L_O"
+    defect_bounds: tuple[tuple[str, int], ...] = ()
+    complete_types: tuple[SingularityType, ...] = ()
     symmetries: tuple[Reflection, ...] = (IDENTITY,)
     images: tuple[Reflection, ...] = (IDENTITY,)
     elsewhere: tuple[Equations, ...] = ()
@@ -75,27 +75,31 @@ class Branch:
     @cached_property
     def kept(self) -> tuple[Reflection, ...]:
         """The symmetries of this part."""
-        sets = (self.equations, *self.away)
+        sets = (self.equations, *self.removed)
         return tuple(r for r in self.symmetries if all(keeps(r, equations) for equations in sets))
 
     @cached_property
     def admitted(self) -> RealSystem:
         """The feasible set off what other branches search."""
-        return replace(self.feasible, exclusions=(*self.feasible.exclusions, *self.away))
+        return replace(self.feasible, exclusions=(*self.feasible.exclusions, *self.removed))
 
     def within(
-        self, locus: Equations, away: tuple[Equations, ...], equations: Equations, least: Least
+        self,
+        locus: Equations,
+        removed: tuple[Equations, ...],
+        equations: Equations,
+        defect_bounds: DefectBounds,
     ) -> Branch:
         """The part of this branch on one more locus, with what is known of the ranks there."""
         path = tuple(dict.fromkeys((*self.path, *locus)))
-        known = dict(self.least)
-        known |= {name: max(defect, known.get(name, 0)) for name, defect in least.items()}
+        known = dict(self.defect_bounds)
+        known |= {name: max(defect, known.get(name, 0)) for name, defect in defect_bounds.items()}
         return replace(
             self,
             equations=(*equations, *locus),
             path=path,
-            away=(*self.away, *away),
-            least=tuple(sorted(known.items())),
+            removed=(*self.removed, *removed),
+            defect_bounds=tuple(sorted(known.items())),
         )
 
 
@@ -151,11 +155,11 @@ def explore_patiently(branch: Branch) -> Explored:
 def _point_by_point(branch: Branch) -> Explored | None:
     """A branch of finitely many points with the same defects; `None` where it is not seen to be one."""
     system = replace(branch.admitted, equations=branch.equations)
-    found = defects_of_points(branch.problem, system, dict(branch.least))
+    found = defects_of_points(branch.problem, system, dict(branch.defect_bounds))
     if found is None or len(found.value) > 1:
         return None
-    own = [defects for defects in found.value if defects.types not in branch.evident]
-    strata = (Stratum(branch.equations, d, branch.away, elsewhere=branch.elsewhere) for d in own)
+    own = [defects for defects in found.value if defects.types not in branch.complete_types]
+    strata = (Stratum(branch.equations, d, branch.removed, elsewhere=branch.elsewhere) for d in own)
     parts = tuple(part for s in strata for part in _apart(Found(branch.path, s, branch.images)))
     return Explored(parts, certainty=found.certainty)
 
@@ -264,28 +268,33 @@ class _Exploring:
         branch = self.branch
         part = self._part(images, tuple(image(locus, r) for locus in known for r in images))
         ranks = ranked(
-            branch.problem, ground, branch.admitted, branch.first, dict(branch.least), branch.evident
+            branch.problem,
+            ground,
+            branch.admitted,
+            branch.first_matrix,
+            dict(branch.defect_bounds),
+            branch.complete_types,
         )
         found = self.premises.take(ranks)
         if found.stratum is not None:
-            loci = (*branch.away, *found.stratum.loci)
+            loci = (*branch.removed, *found.stratum.loci)
             stratum = replace(found.stratum, loci=loci, elsewhere=part.elsewhere)
             self.found += _apart(Found(branch.path, stratum, part.images))
-        taken: tuple[Equations, ...] = ()
-        for whole, least in found.loci.items():
+        removed: tuple[Equations, ...] = ()
+        for whole, defect_bounds in found.loci.items():
             for locus in split_product(whole):
-                if not any(set(known) <= set(locus) for known in taken):
-                    self.following.append(part.within(locus, taken, ground.equations, least))
-                    taken = (*taken, locus)
+                if not any(set(known) <= set(locus) for known in removed):
+                    self.following.append(part.within(locus, removed, ground.equations, defect_bounds))
+                    removed = (*removed, locus)
 
     def _split(self, patch: Patch, polynomial: Polynomial, images: tuple[Reflection, ...]) -> None:
         """A patch as two branches: the zeros of a polynomial and the rest."""
         part = self._part(images)
-        taken: tuple[Equations, ...] = ()
+        removed: tuple[Equations, ...] = ()
         for factor in split_product((polynomial,)):
-            self.following.append(part.within(factor, taken, patch.generators, {}))
-            taken = (*taken, factor)
-        self.following.append(part.within((), taken, patch.generators, {}))
+            self.following.append(part.within(factor, removed, patch.generators, {}))
+            removed = (*removed, factor)
+        self.following.append(part.within((), removed, patch.generators, {}))
 
     def _part(self, images: tuple[Reflection, ...], known: tuple[Equations, ...] = ()) -> Branch:
         """The branch with the images of one patch, and with what was looked at before."""

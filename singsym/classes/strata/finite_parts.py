@@ -25,11 +25,11 @@ _BITS = (64, 256, 1024)
 
 
 def defects_of_points(
-    problem: RankProblem, system: RealSystem, least: Mapping[str, int]
+    problem: RankProblem, system: RealSystem, defect_bounds: Mapping[str, int]
 ) -> Known[frozenset[Defects]] | None:
     """The defects that occur in a set of finitely many points; `None` where this is not found out.
 
-    least: how far at least each matrix is below full rank at all of the points.
+    defect_bounds: how far at least each matrix is below full rank at all of the points.
 
     >>> from singsym.polynomials import Ring
     >>> R = Ring(("x", "y"))
@@ -46,18 +46,18 @@ def defects_of_points(
     with attempt("points of a part", patience.POINTS_BY_MODULES.work):
         points = module_points(equations)
         admitted = [p for p in points.value if system.admits(p)]
-        return Known(frozenset(_defects(problem, p, least) for p in admitted), points.certainty)
+        return Known(frozenset(_defects(problem, p, defect_bounds) for p in admitted), points.certainty)
     return None
 
 
-def _defects(problem: RankProblem, point: BoxPoint, least: Mapping[str, int]) -> Defects:
+def _defects(problem: RankProblem, point: BoxPoint, defect_bounds: Mapping[str, int]) -> Defects:
     """Those at one point; raises `Undecided` where a rank is not seen to be as large as it may be.
 
     Lemma: k_I and k_O are not less than p and delta (Table 1), which are 0 where one of them is.
     """
 
     def defect(name: str) -> int:
-        known = least.get(name, 0)
+        known = defect_bounds.get(name, 0)
         if not _has_rank(problem.matrices[name], problem.full(name) - known, point):
             raise Undecided(f"the rank of {name} at a point is not seen")
         return known

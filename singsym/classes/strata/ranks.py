@@ -46,7 +46,7 @@ class Stratum:
 
     loci: of each tuple, not all polynomials vanish on the stratum.
     component: the equations' zero set where it comes from a decomposition, else None.
-    elsewhere: loci whose points in the stratum belong to another stratum of the same types as well.
+    elsewhere: loci whose points another branch counts, in a stratum of the same types.
     """
 
     equations: tuple[Polynomial, ...]
@@ -89,7 +89,7 @@ _OWN = {
 _BOTH = _OWN["L_O"] | _OWN["L_I"]
 
 
-Least = Mapping[str, int]
+DefectBounds = Mapping[str, int]
 """Of some matrices, how far at least they are below full rank on a set."""
 
 
@@ -103,22 +103,23 @@ class Ranked:
     """
 
     stratum: Stratum | None
-    loci: Mapping[tuple[Polynomial, ...], Least]
+    loci: Mapping[tuple[Polynomial, ...], DefectBounds]
 
 
 def ranked(
     problem: RankProblem,
     ground: Ground,
     feasible: RealSystem,
-    first: str = "L_O",
-    least: Least | None = None,
-    evident: tuple[SingularityType, ...] = (),
+    first_matrix: str = "L_O",
+    defect_bounds: DefectBounds | None = None,
+    complete_types: tuple[SingularityType, ...] = (),
 ) -> Known[Ranked]:
     """The generic ranks on a ground off its exclusions, and the loci of lower rank that matter for the types.
 
     Matrix by matrix, each taken apart anew with what is solved for put in, and with the loci of those before
-    known not to vanish.  first: `L_O` or `L_I`; where it has full rank, there is neither IIM nor RPM.
-    least: what is known of the ranks; evident: the types whose strata are known.
+    known not to vanish.
+    first_matrix: `L_O` or `L_I`; where it has full rank, there is neither IIM nor RPM.
+    defect_bounds: what is known of the ranks; complete_types: those whose strata are all known.
 
     >>> from singsym.classes.strata.patches import Patch
     >>> from singsym.polynomials import Ring
@@ -130,15 +131,16 @@ def ranked(
     >>> ranked(RankProblem({"L": row, **parts}, 0, 1, 1), plane, RealSystem(R, ())).value.loci
     {(y,): {'L_O': 1}, (x,): {'L_I': 1}}
     """
-    other = {"L_O": "L_I", "L_I": "L_O"}[first]
-    ranks = _Ranks(problem, ground, feasible, dict(least or {}))
-    ranks.examine(first)
-    if ranks.defect[first]:
+    other = {"L_O": "L_I", "L_I": "L_O"}[first_matrix]
+    ranks = _Ranks(problem, ground, feasible, dict(defect_bounds or {}))
+    ranks.examine(first_matrix)
+    if ranks.defect[first_matrix]:
         ranks.examine("L_p")
         ranks.examine("L")
     if not ranks.defect["L"] and not ranks.defect["L_p"]:
-        possible = (_OWN[first], _BOTH) if ranks.defect[first] else (SingularityType(0), _OWN[other])
-        if set(possible) <= set(evident):
+        own = _OWN[first_matrix]
+        possible = (own, _BOTH) if ranks.defect[first_matrix] else (SingularityType(0), _OWN[other])
+        if set(possible) <= set(complete_types):
             return ranks.premises.conclude(Ranked(None, ranks.loci))
     before = {locus: dict(there) for locus, there in ranks.loci.items()}
     ranks.examine(other)
@@ -147,22 +149,22 @@ def ranked(
     matters = other in relevant(defects) or not ranks.highest[other]
     loci = ranks.loci if matters else before
     found = Stratum(ground.equations, defects, tuple(loci), ground.component)
-    return ranks.premises.conclude(Ranked(None if defects.types in evident else found, loci))
+    return ranks.premises.conclude(Ranked(None if defects.types in complete_types else found, loci))
 
 
 @dataclass
 class _Ranks:
     """What is found out of the four ranks on a ground, matrix by matrix.
 
-    least: how far at least each is below full rank; defect: how far it is, off the loci; highest: whether it
-        is proven nowhere higher; loci: of lower rank, with how far at least the matrices are below full rank
-        there; premises: what all this rests on.
+    defect_bounds: how far at least each is below full rank; defect: how far it is, off the loci; highest:
+        whether it is proven nowhere higher; loci: of lower rank, with how far at least the matrices are below
+        full rank there; premises: what all this rests on.
     """
 
     problem: RankProblem
     ground: Ground
     feasible: RealSystem
-    least: dict[str, int]
+    defect_bounds: dict[str, int]
     defect: dict[str, int] = field(default_factory=lambda: {"L": 0, "L_p": 0})
     highest: dict[str, bool] = field(default_factory=lambda: dict.fromkeys(_BELOW, True))
     loci: dict[Equations, dict[str, int]] = field(default_factory=dict)
@@ -177,8 +179,10 @@ class _Ranks:
         full = self.problem.full(name) - parts.constant
         starts = [numerical_minor(block, ground.samples) for block in parts.blocks]
         most = sum(min(block.shape) for block in parts.blocks)
-        self.least[name] = max(full - most, *(self.least.get(other, 0) for other in _BELOW[name]))
-        largest = sum(len(rows) for rows, _ in starts) == full - self.least[name]
+        self.defect_bounds[name] = max(
+            full - most, *(self.defect_bounds.get(other, 0) for other in _BELOW[name])
+        )
+        largest = sum(len(rows) for rows, _ in starts) == full - self.defect_bounds[name]
         found = [
             self.premises.take(block_rank(block, ground, certifier, start, largest))
             for block, start in zip(parts.blocks, starts, strict=True)

@@ -132,15 +132,15 @@ def representatives(
     """
     places = {frozenset(p.primitive() for p in equations): k for k, equations in enumerate(sets)}
     found: list[tuple[int, tuple[Reflection, ...]]] = []
-    taken: set[int] = set()
+    reached: set[int] = set()
     for k, equations in enumerate(sets):
-        if k in taken:
+        if k in reached:
             continue
         members = {k: IDENTITY}
         for reflection in group:
             member = places.get(frozenset(p.primitive() for p in image(equations, reflection)))
-            if member is not None and member not in taken:
+            if member is not None and member not in reached:
                 members.setdefault(member, reflection)
-        taken |= members.keys()
+        reached |= members.keys()
         found.append((k, tuple(members.values())))
     return found

@@ -29,19 +29,19 @@ _PATIENCE = 2
 class Exploration:
     """All strata, and the branches that ended without an answer, with their reasons.
 
-    evident: types whose strata are all there, whatever is unexplored; certainty: how the others are known to
-        be all; modular: types for which that rests on primes in any case.
+    complete_types: those whose strata are all there, whatever is unexplored; certainty: how the others are
+        known to be all; modular: types for which that rests on primes in any case.
     """
 
     found: tuple[Found, ...]
     unexplored: tuple[tuple[Branch, str], ...]
-    evident: tuple[SingularityType, ...] = ()
+    complete_types: tuple[SingularityType, ...] = ()
     certainty: Certainty = "proven"
     modular: tuple[SingularityType, ...] = ()
 
     def certainty_of(self, types: SingularityType) -> Certainty:
         """How it is known that there are no more configurations of these types than were found."""
-        if types in self.evident:
+        if types in self.complete_types:
             return "proven"
         return weakest(self.certainty, "modular" if types in self.modular else "proven")
 
@@ -52,7 +52,7 @@ class Exploration:
 
     def doubts(self, types: SingularityType) -> tuple[str, ...]:
         """Why there may be more configurations of these types than were found."""
-        return () if types in self.evident else self.doubts_of_any
+        return () if types in self.complete_types else self.doubts_of_any
 
 
 Loci = tuple[Equations, ...]
@@ -88,19 +88,19 @@ def search(
     The result does not depend on the runner's executor: branches keep their order.
     """
     found: list[Found] = []
-    first: Sequence[Branch] = (root,)
+    roots: Sequence[Branch] = (root,)
     if singular is not None:
-        found, first = _started(root, singular)
-    evident = first[0].evident if first else ()
+        found, roots = _started(root, singular)
+    complete_types = roots[0].complete_types if roots else ()
     whole = budget or Budget()
     unexplored: list[tuple[Branch, str]] = []
     modular: list[tuple[Branch, Explored]] = []
-    for branch, explored in runner.grow(explore, first, attrgetter("following"), "strata", whole):
+    for branch, explored in runner.grow(explore, roots, attrgetter("following"), "strata", whole):
         if explored.certainty != "proven":
             modular.append((branch, explored))
         unexplored += [(branch, reason) for reason in explored.undecided]
         found += explored.found
-    return Exploration(tuple(found), tuple(unexplored), evident, *_proven(modular, runner, whole))
+    return Exploration(tuple(found), tuple(unexplored), complete_types, *_proven(modular, runner, whole))
 
 
 def _proven(
@@ -112,8 +112,8 @@ def _proven(
     modulo primes, leave only their own types in doubt, which come second.
     """
     stage = "strata, proofs over Q"
-    empty = [branch for branch, first in modular if first == Explored(certainty=first.certainty)]
-    others = [(branch, first) for branch, first in modular if branch not in empty]
+    empty = [branch for branch, once in modular if once == Explored(certainty=once.certainty)]
+    others = [(branch, once) for branch, once in modular if branch not in empty]
     empty = [replace(branch, splits=0, seconds=_longer(branch.seconds)) for branch in empty]
     known: list[Certainty] = []
     types: dict[SingularityType, None] = {}
@@ -123,10 +123,10 @@ def _proven(
         else:
             known.append(part.certainty)
             types |= dict.fromkeys(f.stratum.defects.types for f in part.found)
-    seconds = runner.map(explore_patiently, [branch for branch, _ in others], stage, budget)
-    for (_, first), second in zip(others, seconds, strict=True):
-        same = replace(second, certainty=first.certainty) == first
-        known.append(second.certainty if same else first.certainty)
+    looks = runner.map(explore_patiently, [branch for branch, _ in others], stage, budget)
+    for (_, once), again in zip(others, looks, strict=True):
+        same = replace(again, certainty=once.certainty) == once
+        known.append(again.certainty if same else once.certainty)
     return weakest(*known), tuple(types)
 
 
@@ -136,20 +136,20 @@ def _longer(seconds: float | None) -> float | None:
 
 def _started(root: Branch, singular: SingularLoci) -> tuple[list[Found], list[Branch]]:
     """The strata that need no search, and the branches where the others are."""
-    found = list(_evident_strata(root, singular))
-    evident = tuple(dict.fromkeys((*(part.stratum.defects.types for part in found), *_SIMPLE)))
-    first, loci = min(
+    found = list(_strata_without_search(root, singular))
+    complete_types = tuple(dict.fromkeys((*(part.stratum.defects.types for part in found), *_SIMPLE)))
+    matrix, loci = min(
         (("L_O", singular.outputs), ("L_I", singular.inputs)),
         key=lambda side: sum(len(p) for locus in side[1] for p in locus),
     )
-    ready = replace(root, first=first, evident=evident)
+    ready = replace(root, first_matrix=matrix, complete_types=complete_types)
     return found, [
         ready.within(locus, loci[:i], root.equations, singular.defects_on(locus))
         for i, locus in enumerate(loci)
     ]
 
 
-def _evident_strata(root: Branch, singular: SingularLoci) -> Iterator[Found]:
+def _strata_without_search(root: Branch, singular: SingularLoci) -> Iterator[Found]:
     """The regular configurations, and the classes without IIM and RPM.
 
     With k_O = 0 there is neither IIM nor RPM, and the class is (RO, II) by (vii); dually (RI, IO) by (viii).

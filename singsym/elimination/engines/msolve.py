@@ -1,4 +1,4 @@
-"""msolve, one subprocess a task: Groebner bases, elimination, real boxes of zero-dimensional systems.
+"""msolve, one subprocess a task: Groebner bases, elimination, points of zero-dimensional systems.
 
 Source: J. Berthomieu, C. Eder, M. Safey El Din, msolve: a library for solving polynomial systems, ISSAC 2021.
 """
@@ -9,7 +9,6 @@ import re
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from pathlib import Path
 
 from singsym.effort.budget import Budget, current
@@ -25,10 +24,7 @@ from singsym.elimination.engines.process import Child
 from singsym.elimination.engines.text import read, used_variables, write
 from singsym.polynomials import Polynomial, Ring
 
-RealBox = dict[str, tuple[Fraction, Fraction]]
-
-_NUMBER = re.compile(r"(-?\d+)(?:\s*/\s*(\d+)(?:\s*\^\s*(\d+))?)?")
-_TOKEN = re.compile(r"\s*([\[\],:]|-?\d+(?:\s*/\s*\d+(?:\s*\^\s*\d+)?)?)")
+_TOKEN = re.compile(r"\s*([\[\],:]|-?\d+)")
 
 
 @dataclass(frozen=True)
@@ -63,15 +59,15 @@ class MsolveEngine:
         generators = [p for p in task.generators if p]
         used = used_variables(generators)
         eliminated = [task.ring.index(v.variables[0]) for v in task.others]
-        first = [i for i in used if i in eliminated]
-        used = (*first, *(i for i in used if i not in eliminated))
-        if not used or len(first) == len(used):
+        to_eliminate = [i for i in used if i in eliminated]
+        used = (*to_eliminate, *(i for i in used if i not in eliminated))
+        if not used or len(to_eliminate) == len(used):
             unit = not used and bool(generators)
             return EngineAnswer(((task.ring.one,) if unit else (),), self.name)
-        options = ["-g", "2", *(["-e", str(len(first))] if first else [])]
+        options = ["-g", "2", *(["-e", str(len(to_eliminate))] if to_eliminate else [])]
         text = self._call(generators, used, options, budget, task.characteristic)
         match = re.fullmatch(r"((?:#.*\n)*)\[(.*)\]:\s*", text, re.DOTALL)
-        shown = used[len(first) :] if first else used
+        shown = used[len(to_eliminate) :] if to_eliminate else used
         if match is None:
             raise EngineFailure(self.name, f"printed no basis: {text[:200]!r}")
         if f"#variable order:       {', '.join(f'x{used.index(i) + 1}' for i in shown)}\n" not in match[1]:
@@ -82,35 +78,13 @@ class MsolveEngine:
             raise EngineFailure(self.name, str(error)) from None
         return EngineAnswer((tuple(p.primitive() for p in basis if p),), self.name, "modular")
 
-    def real_boxes(
-        self,
-        equations: Sequence[Polynomial],
-        ring: Ring,
-        *,
-        bits: int = 128,
-        budget: Budget | None = None,
-    ) -> tuple[RealBox, ...]:
-        """Isolating boxes of the real solutions, rational intervals by variable name.
-
-        Raises `NotZeroDimensional`, `EngineFailure`, `BudgetExceeded`.  Completeness is msolve's word
-        ("no solution" rests on one prime): compare it with a count, or prove it apart.
-        """
-        generators = [p for p in equations if p]
-        missing = set(ring.names) - {name for p in generators for name in p.variables}
-        if any(p.is_constant for p in generators):
-            return ()
-        if missing:
-            raise NotZeroDimensional(f"{', '.join(sorted(missing))} in no equation")
-        used = tuple(range(len(ring.names)))
-        text = self._call(generators, used, ["-p", str(bits)], current(budget))
-        return _read_boxes(text, ring)
-
     def parametrization(
         self, equations: Sequence[Polynomial], ring: Ring, *, budget: Budget | None = None
     ) -> RawParametrization | None:
         """All complex solutions as functions of the roots of one polynomial; `None` where there are none.
 
-        Raises as `real_boxes`; what it returns is unchecked, and complete on msolve's word.
+        Raises `NotZeroDimensional`, `EngineFailure`, `BudgetExceeded`.  The answer is unchecked, and complete
+        on msolve's word ("no solution" rests on one prime): compare it with a count, or prove it apart.
         """
         generators = [p for p in equations if p]
         missing = set(ring.names) - {name for p in generators for name in p.variables}
@@ -171,14 +145,6 @@ class MsolveEngine:
         """Nothing to end: each task has its own process."""
 
 
-def _fraction(text: str) -> Fraction:
-    match = _NUMBER.fullmatch(text)
-    if match is None:
-        raise EngineFailure("msolve", f"printed {text!r} where a number is expected")
-    numerator, denominator, power = match.groups()
-    return Fraction(int(numerator), int(denominator or 1) ** int(power or 1))
-
-
 def _tree(text: str) -> list[object]:
     """The nested lists of msolve's output, numbers as text."""
     stack: list[list[object]] = [[]]
@@ -221,7 +187,7 @@ def _read_parametrization(text: str) -> RawParametrization | None:
         match entry:
             case [[_, [*numerator]], divisor]:
                 numerators.append(_integers(numerator))
-                divisors.append(int(str(divisor)))
+                divisors.append(_integer(divisor))
             case _:
                 raise EngineFailure("msolve", "printed a coordinate that is no polynomial")
     order = tuple(int(n[1:]) - 1 for n in names if re.fullmatch(r"x\d+", n))
@@ -231,30 +197,10 @@ def _read_parametrization(text: str) -> RawParametrization | None:
 
 
 def _integers(entries: Sequence[object]) -> tuple[int, ...]:
-    return tuple(int(str(e)) for e in entries)
+    return tuple(map(_integer, entries))
 
 
-def _read_boxes(text: str, ring: Ring) -> tuple[RealBox, ...]:
-    match _tree(text):
-        case ["-1"]:
-            return ()
-        case ["1", _, "-1", []]:
-            raise NotZeroDimensional("infinitely many complex solutions")
-        case ["0", ["1", [*boxes]]]:
-            return tuple(_box(box, ring) for box in boxes)
-    raise EngineFailure("msolve", f"printed {text[:80]!r}")
-
-
-def _box(entry: object, ring: Ring) -> RealBox:
-    if not isinstance(entry, list) or len(entry) != len(ring.names):
-        raise EngineFailure("msolve", "printed a point with a wrong number of coordinates")
-    box: RealBox = {}
-    for name, interval in zip(ring.names, entry, strict=True):
-        match interval:
-            case [str(low), str(high)]:
-                box[name] = (_fraction(low), _fraction(high))
-            case _:
-                raise EngineFailure("msolve", "printed a coordinate that is no interval")
-        if box[name][0] > box[name][1]:
-            raise EngineFailure("msolve", "printed an interval the wrong way round")
-    return box
+def _integer(entry: object) -> int:
+    if not isinstance(entry, str):
+        raise EngineFailure("msolve", "printed a list where a number is expected")
+    return int(entry)

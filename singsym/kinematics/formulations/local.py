@@ -159,8 +159,8 @@ def perpendiculars(axis: Vector) -> tuple[Vector, Vector]:
     for index in range(3):
         if is_zero(axis[index]):
             return UNITS[index], cross(axis, UNITS[index])
-    first = cross(UNITS[0], axis)
-    return first, cross(axis, first)
+    n1 = cross(UNITS[0], axis)
+    return n1, cross(axis, n1)
 
 
 def coordinates(basis: Sequence[Vector], vector: Vector) -> Vector | None:

@@ -219,12 +219,12 @@ class _Placing:
             return {joint.name: JointValue(length=self.ring.gen(self.plan.placing_slides[joint.name]))}
         if joint.kind is JointKind.P:
             a, b = self.points[joint.first, joint.at[0]], self.points[joint.second, joint.at[1]]
-            away = (b[0] - a[0], b[1] - a[1])
+            gap = (b[0] - a[0], b[1] - a[1])
             if joint.name in self.plan.struts:
-                return {joint.name: JointValue(square=away[0] ** 2 + away[1] ** 2)}
+                return {joint.name: JointValue(square=gap[0] ** 2 + gap[1] ** 2)}
             assert joint.axes is not None
             u = self.headings[joint.first].turn(self._axis(joint.first, joint.axes[0]))
-            return {joint.name: JointValue(length=u[0] * away[0] + u[1] * away[1])}
+            return {joint.name: JointValue(length=u[0] * gap[0] + u[1] * gap[1])}
         if joint.kind is not JointKind.R or not {joint.first, joint.second} <= self.headings.keys():
             return {}
         one, two = self.headings[joint.first], self.headings[joint.second]

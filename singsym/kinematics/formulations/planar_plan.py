@@ -119,12 +119,12 @@ def _pins(mechanism: Mechanism) -> dict[tuple[str, str], Pin]:
             graph.add_edge((joint.first, joint.at[0]), (joint.second, joint.at[1]))
     order = {m: i for i, m in enumerate(graph.nodes)}
     found: dict[tuple[str, str], Pin] = {}
-    taken: set[str] = set()
+    used: set[str] = set()
     for members in networkx.connected_components(graph):
         ordered = tuple(sorted(members, key=order.__getitem__))
         link, name = ordered[0]
-        free = name if name not in taken else f"{link}_{name}"
-        taken.add(free)
+        free = name if name not in used else f"{link}_{name}"
+        used.add(free)
         found |= dict.fromkeys(ordered, Pin(free, ordered))
     return found
 

@@ -9,6 +9,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import networkx
 import sympy
 
 from singsym.kinematics.formulations import local
@@ -18,6 +19,9 @@ from singsym.kinematics.formulations.frames import Algebra, Body, minus
 from singsym.kinematics.placement import Coordinates, JointValue
 from singsym.mechanism.model import Joint, JointKind, Mechanism, Twist
 from singsym.polynomials import Polynomial
+
+_POINTS_COINCIDE = (JointKind.R, JointKind.U, JointKind.S)
+"""Joints that keep their points in the two links together."""
 
 
 @dataclass(frozen=True)
@@ -65,7 +69,6 @@ def hangers(mechanism: Mechanism, geometry: local.Geometry, link: str) -> list[H
 
 def find_struts(mechanism: Mechanism, geometry: local.Geometry) -> list[Strut]:
     """All rods and straight struts of a mechanism."""
-    sure = positive_lengths(mechanism)
     struts = []
     for link in mechanism.links:
         joints = [joint for joint in mechanism.joints if link.name in (joint.first, joint.second)]
@@ -78,8 +81,9 @@ def find_struts(mechanism: Mechanism, geometry: local.Geometry) -> list[Strut]:
         if len(ends) == 1 and slide is not None and slide.first == link.name:
             other = hangers(mechanism, geometry, slide.second)
             if len(other) == 1 and _is_straight(mechanism, geometry, slide, (ends[0], other[0])):
-                names = _strut_names(mechanism, slide, slide.name in sure)
-                struts.append(Strut((slide.first, slide.second), (ends[0], other[0]), slide, names))
+                both = (ends[0], other[0])
+                names = _strut_names(mechanism, slide, never_vanishes(mechanism, geometry, slide, both))
+                struts.append(Strut((slide.first, slide.second), both, slide, names))
     return struts
 
 
@@ -153,45 +157,39 @@ def hang_struts(assembly: Assembly, struts: Sequence[Strut]) -> None:
             assembly.scaled[strut.slide.name] = (*algebra.origin, *direction)
             if strut.names:
                 length = algebra.ring.gen(strut.names[0])
-                offset = algebra.number(_offset(geometry, strut, strut.slide))
+                offset = algebra.number(_offset(geometry, strut.slide, strut.ends))
                 assembly.values[strut.slide.name] = JointValue(length=length - offset)
 
 
-def _offset(geometry: local.Geometry, strut: Strut, slide: Joint) -> sympy.Expr:
-    """How much longer the strut is than its slide."""
+def _offset(geometry: local.Geometry, slide: Joint, ends: tuple[Hanger, Hanger]) -> sympy.Expr:
+    """How much longer a strut is than its slide."""
     extra = [
         local.dot(local.minus(hanger.inner, point), axis)
-        for hanger, point, axis in zip(strut.ends, geometry.points(slide), geometry.axes(slide), strict=True)
+        for hanger, point, axis in zip(ends, geometry.points(slide), geometry.axes(slide), strict=True)
     ]
     return local.tidy(extra[1] - extra[0])
 
 
-def positive_lengths(mechanism: Mechanism) -> set[str]:
-    """P joints between spherical ones whose legs cannot have length zero.
+def never_vanishes(
+    mechanism: Mechanism, geometry: local.Geometry, slide: Joint, ends: tuple[Hanger, Hanger]
+) -> bool:
+    """Whether the two ends of a strut never coincide: by a lower limit of its slide or an exclusion."""
+    offset = _offset(geometry, slide, ends)
+    lows = (k.low for k in mechanism.limits if k.expression == length_symbol(slide) and k.low is not None)
+    if any((low + offset).is_positive for low in lows):
+        return True
+    first, second = (_names_of_centre(mechanism, hanger.joint) for hanger in ends)
+    apart = (e.points for e in mechanism.exclusions if e.kind == "coincide")
+    return any((a in first and b in second) or (a in second and b in first) for a, b in apart)
 
-    By a positive lower limit on length(P), or an exclusion of the two ends' coinciding.
-    """
-    sure = {
-        joint.name
-        for joint in mechanism.joints
-        for limit in mechanism.limits
-        if limit.expression == length_symbol(joint) and limit.low is not None and limit.low.is_positive
-    }
-    apart = [set(exclusion.points) for exclusion in mechanism.exclusions if exclusion.kind == "coincide"]
-    for joint in mechanism.joints:
-        if joint.kind is JointKind.P:
-            ends = [
-                {
-                    name
-                    for other in mechanism.joints
-                    if link in (other.first, other.second)
-                    for name in other.at
-                }
-                for link in (joint.first, joint.second)
-            ]
-            if any(len(pair) == 2 and all(pair & end for end in ends) for pair in apart):
-                sure.add(joint.name)
-    return sure
+
+def _names_of_centre(mechanism: Mechanism, joint: Joint) -> set[str]:
+    """The names of a spherical joint's centre in all links that have it; a name is one point of space."""
+    graph = networkx.Graph()
+    for other in mechanism.joints:
+        if other.kind in _POINTS_COINCIDE:
+            graph.add_edge((other.first, other.at[0]), (other.second, other.at[1]))
+    return {name for _, name in networkx.node_connected_component(graph, (joint.first, joint.at[0]))}
 
 
 def length_symbol(joint: Joint) -> sympy.Symbol:

@@ -87,8 +87,8 @@ def smooth(line: Floats, system: CompiledMap, halvings: int = 4) -> Floats:
             middle = (start + end) / 2
             landed = project(system, middle, free)
             if landed is not None:
-                away, chord = np.linalg.norm(landed - middle), np.linalg.norm(end - start)
-                if _VISIBLE * size < away < chord / 3:
+                sag, chord = np.linalg.norm(landed - middle), np.linalg.norm(end - start)
+                if _VISIBLE * size < sag < chord / 3:
                     vertices.append(landed)
             vertices.append(end)
         if len(vertices) == len(line):

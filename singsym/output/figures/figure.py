@@ -112,7 +112,10 @@ def _drawn(stage: Stage, point: Floats, motions: Sequence[Motion], title: str, d
         scene = seen(scene, view)
         moving = [(m, velocities_seen(v, view)) for m, v in moving]
     figure = canvas(5.4, _height(scene))
-    draw(figure.add_subplot(), scene, moving)
+    axes = figure.add_subplot()
+    axes.set_aspect("equal")
+    axes.axis("off")
+    draw(axes, scene, moving)
     figure.suptitle(_wrapped(title), fontsize=12, color=INK)
     _write_below(figure, stage.mechanism, motions)
     return Picture(figure, title, description)

@@ -41,13 +41,13 @@ def write_names(
 
     reach: how far from a place its label stands.  letter: the width of a letter.
     """
-    taken: list[Segment] = list(segments)
+    occupied: list[Segment] = list(segments)
     spots = []
     for place, label in groups:
         half = np.array([0.5 * letter * (len(label) - 1), 0.0])
-        spot = _free_spot(place, reach(place), half, taken)
+        spot = _free_spot(place, reach(place), half, occupied)
         axes.annotate(label, spot, ha="center", va="center", fontsize=11, color=INK, zorder=19)
-        taken.append((spot - half, spot + half))
+        occupied.append((spot - half, spot + half))
         spots += [spot - half, spot + half]
     return spots
 

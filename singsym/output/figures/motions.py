@@ -36,11 +36,11 @@ def motions_at(equation: VelocityEquation, point: Floats, defects: Defects) -> t
 
 def drawn_motions(motions: tuple[Motion, ...]) -> tuple[Motion, ...]:
     """The first motion of each of the types RI, RO, RPM."""
-    first: dict[SingularityType, Motion] = {}
+    by_type: dict[SingularityType, Motion] = {}
     for motion in motions:
         if motion.type in WORDS:
-            first.setdefault(motion.type, motion)
-    return tuple(first.values())
+            by_type.setdefault(motion.type, motion)
+    return tuple(by_type.values())
 
 
 def rates_text(motion: Motion) -> str:
@@ -60,5 +60,5 @@ def restriction_text(motion: Motion) -> str:
     for label, x in motion.rates.items():
         size = "" if abs(abs(x) - 1) < 1e-9 else f"{abs(x):.3g} "
         terms.append(f"{'−' if x < 0 else '+'} {size}{label}")
-    first = terms[0].removeprefix("+ ").replace("− ", "−")
-    return " ".join([first, *terms[1:]]) + " = 0"
+    head = terms[0].removeprefix("+ ").replace("− ", "−")
+    return " ".join([head, *terms[1:]]) + " = 0"

@@ -30,10 +30,8 @@ from singsym.output.figures.style import (
 def draw_planar(axes: Any, scene: Scene, motions: Sequence[tuple[Motion, Velocities]] = ()) -> None:
     """Draw a scene, with null motions' velocities as arrows, onto matplotlib axes."""
     size = scene.size
-    axes.set_aspect("equal")
-    axes.axis("off")
-    plates = [b for b in scene.bodies if not b.ground and _is_plate(b.places)]
-    bars = [b for b in scene.bodies if not b.ground and len(b.places) >= 2 and not _is_plate(b.places)]
+    plates = [b for b in scene.bodies if not b.ground and b.is_plate]
+    bars = [b for b in scene.bodies if not b.ground and len(b.places) >= 2 and not b.is_plate]
     for body in plates:
         _plate(axes, body)
     # shorter bars on top and thinner, so that links in line stay apart
@@ -63,26 +61,9 @@ def _length(body: Body) -> float:
     return float(np.ptp(body.places, axis=0).max())
 
 
-def _is_plate(places: Floats) -> bool:
-    """Whether points are not all on a line."""
-    if len(places) < 3:
-        return False
-    singular = np.linalg.svd(places - places.mean(axis=0), compute_uv=False)
-    return bool(singular[1] > 1e-6 * singular[0])
-
-
-def outline(places: Floats) -> Floats:
-    """The points in the order of their angles about the middle: the corners of a plate."""
-    arms = places - places.mean(axis=0)
-    order = np.argsort(np.arctan2(arms[:, 1], arms[:, 0]))
-    found: Floats = places[order]
-    return found
-
-
 def _plate(axes: Any, body: Body) -> None:
-    corners = outline(body.places)
     fill = PLATFORM if body.output else LINK
-    axes.fill(*corners.T, fc=fill, ec=INK, lw=1.4, joinstyle="round", zorder=2, alpha=0.9)
+    axes.fill(*body.outline.T, fc=fill, ec=INK, lw=1.4, joinstyle="round", zorder=2, alpha=0.9)
 
 
 def _bar(axes: Any, body: Body, width: float) -> None:
@@ -108,11 +89,11 @@ def _hatching(axes: Any, start: Floats, end: Floats, h: float) -> None:
     """A fixed line with strokes on its right-hand side."""
     axes.plot(*np.array([start, end]).T, "-", color=INK, lw=1.2, zorder=2.4)
     along = (end - start) / np.linalg.norm(end - start)
-    away = np.array([along[1], -along[0]])
+    normal = np.array([along[1], -along[0]])
     count = max(3, round(float(np.linalg.norm(end - start)) / (0.45 * h)))
     for t in np.linspace(0.08, 0.98, count):
         foot = start + t * (end - start)
-        tip = foot + 0.4 * h * (away - along)
+        tip = foot + 0.4 * h * (normal - along)
         axes.plot(*np.array([foot, tip]).T, "-", color=PALE, lw=0.9, zorder=2.3)
 
 
@@ -202,7 +183,7 @@ def _segments(scene: Scene) -> list[Segment]:
     segments: list[Segment] = []
     for body in scene.bodies:
         if not body.ground:
-            corners = outline(body.places) if len(body.places) > 2 else body.places
+            corners = body.outline
             segments += list(zip(corners, np.roll(corners, -1, axis=0), strict=True))
     for mark in scene.marks:
         if mark.joint.kind is JointKind.P and mark.direction is not None:

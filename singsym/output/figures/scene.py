@@ -42,6 +42,26 @@ class Body:
         corners = distinct(p for name, p in self.points.items() if name in self.held)
         return corners if len(corners) > 1 else distinct(self.points.values())
 
+    @property
+    def is_plate(self) -> bool:
+        """Whether its corners are not all on a line."""
+        places = self.places
+        if len(places) < 3:
+            return False
+        singular = np.linalg.svd(places - places.mean(axis=0), compute_uv=False)
+        return bool(singular[1] > 1e-6 * singular[0])
+
+    @property
+    def outline(self) -> Floats:
+        """Its corners in the order of their angles about the middle, seen along the normal of a plate."""
+        places = self.places
+        if len(places) < 3:
+            return places
+        arms = places - places.mean(axis=0)
+        u, v = np.linalg.svd(arms)[2][:2]
+        ordered: Floats = places[np.argsort(np.arctan2(arms @ v, arms @ u))]
+        return ordered
+
 
 @dataclass(frozen=True, eq=False)
 class Mark:

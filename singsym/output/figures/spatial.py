@@ -41,16 +41,17 @@ _ARC = 48
 
 def draw_spatial(axes: Any, scene: Scene, motions: Sequence[tuple[Motion, Velocities]] = ()) -> None:
     """Draw a scene, with null motions' velocities as arrows, onto plane matplotlib axes."""
-    axes.set_aspect("equal")
-    axes.axis("off")
     spherical = scene.space is Space.SPHERICAL
     size = 2.2 if spherical else float(np.ptp(scene.all_points[:, :2], axis=0).max())
     depth = _Depth(scene)
     if spherical:
         _sphere(axes)
     for body in scene.bodies:
-        for piece in _arcs(body) if spherical else (body.places,):
-            _body(axes, body, piece, depth(piece))
+        if body.is_plate and not spherical:
+            _plate(axes, body, depth(body.places))
+        else:
+            for line in _arcs(body) if spherical else (body.places,):
+                _rod(axes, body, line, depth(line))
     if not spherical:
         _feet(axes, scene, size)
     for mark in scene.marks:
@@ -95,38 +96,26 @@ def _axes(scene: Scene) -> Iterator[tuple[Mark, Floats]]:
 # -- links ---------------------------------------------------------------------------------------------
 
 
-def _body(axes: Any, body: Body, places: Floats, order: float) -> None:
-    """A plate for three points or more, a rod for two or an arc; the ground hatched, behind everything."""
+def _plate(axes: Any, body: Body, order: float) -> None:
+    """A link with corners that are not on a line; the ground hatched, behind everything."""
     fill = PLATFORM if body.output else LINK
-    if _is_plate(places):
-        corners = _outline(places)[:, :2].T
-        if body.ground:
-            axes.fill(*corners, fc="none", ec=PALE, lw=0.7, hatch="///", alpha=0.45, zorder=1)
-        else:
-            axes.fill(*corners, fc=fill, ec=INK, lw=1.4, joinstyle="round", alpha=0.85, zorder=order)
-    elif len(places) >= 2:
-        ends = places[:, :2].T
-        if body.ground:
-            axes.plot(*ends, "-", color=PALE, lw=1.2, zorder=1)
-            return
+    corners = body.outline[:, :2].T
+    if body.ground:
+        axes.fill(*corners, fc="none", ec=PALE, lw=0.7, hatch="///", alpha=0.45, zorder=1)
+    else:
+        axes.fill(*corners, fc=fill, ec=INK, lw=1.4, joinstyle="round", alpha=0.85, zorder=order)
+
+
+def _rod(axes: Any, body: Body, line: Floats, order: float) -> None:
+    """A link along a line or an arc; the ground thin, behind everything."""
+    if len(line) < 2:
+        return
+    fill, ends = PLATFORM if body.output else LINK, line[:, :2].T
+    if body.ground:
+        axes.plot(*ends, "-", color=PALE, lw=1.2, zorder=1)
+    else:
         axes.plot(*ends, "-", color=INK, lw=6.5, solid_capstyle="round", zorder=order)
         axes.plot(*ends, "-", color=fill, lw=4.2, solid_capstyle="round", zorder=order + 0.01)
-
-
-def _is_plate(places: Floats) -> bool:
-    """Whether points are not all on a line; of an arc's many points none is a corner."""
-    if not 3 <= len(places) < _ARC:
-        return False
-    singular = np.linalg.svd(places - places.mean(axis=0), compute_uv=False)
-    return bool(singular[1] > 1e-6 * singular[0])
-
-
-def _outline(places: Floats) -> Floats:
-    """The corners of a plate in order, seen along its normal."""
-    arms = places - places.mean(axis=0)
-    u, v = np.linalg.svd(arms)[2][:2]
-    found: Floats = places[np.argsort(np.arctan2(arms @ v, arms @ u))]
-    return found
 
 
 def _arcs(body: Body) -> Iterator[Floats]:
@@ -150,7 +139,7 @@ def _sphere(axes: Any) -> None:
 
 def _feet(axes: Any, scene: Scene, size: float) -> None:
     """A foot with hatching under each joint of the ground, where the ground is no plate."""
-    plates = [b for b in scene.bodies if b.ground and _is_plate(b.places)]
+    plates = [b for b in scene.bodies if b.ground and b.is_plate]
     places = [m.base for m in scene.marks if m.grounded]
     if not plates and places:
         for place in distinct(places):
@@ -234,7 +223,7 @@ def _names(axes: Any, scene: Scene, size: float, arrows: Sequence[Segment]) -> l
         named = dict(scene.names)
     segments: list[Segment] = list(arrows)
     for body in scene.bodies:
-        if len(body.places) > 1 and not (body.ground and _is_plate(body.places)):
+        if len(body.places) > 1 and not (body.ground and body.is_plate):
             corners = body.places[:, :2]
             segments += list(zip(corners, np.roll(corners, -1, axis=0), strict=True))
     for mark, u in _axes(scene):

@@ -48,9 +48,9 @@ def motion(stage: Stage, traces: Sequence[Trace]) -> str:
     if not arcs:
         return ""
     sampled = [(label, _resampled(arc)) for label, arc in arcs]
-    first = stage.scene(sampled[0][1][0])
-    view = np.eye(2) if first.space is Space.PLANAR else viewpoint(first)[:2]
-    shapes = _shapes(first)
+    first_scene = stage.scene(sampled[0][1][0])
+    view = np.eye(2) if first_scene.space is Space.PLANAR else viewpoint(first_scene)[:2]
+    shapes = _shapes(first_scene)
     projected = [np.array([_places(stage.scene(p)) @ view.T for p in points]) for _, points in sampled]
     curves = []
     inputs = [

@@ -57,12 +57,12 @@ class RealSystem:
         return tuple(dict.fromkeys((*self.positive, *single, *self._not_at_zero)))
 
     @property
-    def away(self) -> tuple[Polynomial, ...]:
+    def exclusion_polynomials(self) -> tuple[Polynomial, ...]:
         """For each exclusion a polynomial with the same real zeros: the sum of its squares.
 
         >>> R = Ring(("x", "y"))
         >>> x, y = R.gens
-        >>> RealSystem(R, (), exclusions=((x,), (x, y))).away
+        >>> RealSystem(R, (), exclusions=((x,), (x, y))).exclusion_polynomials
         (x, x^2 + y^2)
         """
         return tuple(

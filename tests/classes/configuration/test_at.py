@@ -8,7 +8,7 @@ import sympy
 
 from singsym.classes.configuration.at import at, at_equation
 from singsym.classes.taxonomy.types import SingularityType as T
-from singsym.kinematics.own_equation import from_sympy
+from singsym.kinematics.own_equation import SymbolicSpace, from_sympy
 from singsym.kinematics.sampling import sample_configurations
 from singsym.kinematics.velocity import velocity_equation
 from singsym.mechanism import MechanismError, load
@@ -122,6 +122,8 @@ def test_what_is_left_open_or_wrong_is_said():
 
 def test_equations_of_ones_own():
     c, s = sympy.symbols("c s")
-    own = from_sympy(sympy.Matrix([[1, -s]]), [("T", "output"), ("A", "input")], [c**2 + s**2 - 1])
+    own = from_sympy(
+        sympy.Matrix([[1, -s]]), [("T", "output"), ("A", "input")], SymbolicSpace([c**2 + s**2 - 1])
+    )
     assert at_equation(own, {"variables": {"c": 1, "s": 0}}).types == T.RI | T.IO
     assert not at_equation(own, {"variables": {"c": "3/5", "s": "4/5"}}).types

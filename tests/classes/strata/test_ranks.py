@@ -89,7 +89,7 @@ def test_ranks_on_the_plane_and_on_a_line() -> None:
 def test_what_is_known_is_not_written_again() -> None:
     """With full rank of L and L_p no stratum where its types are among those known."""
     known = (SingularityType(0), SingularityType.RO | SingularityType.II)
-    assert ranked(row_problem(), ground(), RealSystem(R, ()), evident=known).value.stratum is None
+    assert ranked(row_problem(), ground(), RealSystem(R, ()), complete_types=known).value.stratum is None
 
 
 def test_a_minor_that_only_seems_to_vanish_is_not_evident() -> None:

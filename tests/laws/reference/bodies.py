@@ -181,24 +181,24 @@ def _joint(b: _Bodies, k: Pair) -> tuple[list[Array], list[Array], list[Array]]:
     """Residues (..., m), their derivatives (..., m, k), and the rates, likewise."""
     P, Q = b.at(k.i, k.p), b.at(k.j, k.q)
     u, v = b.along(k.i, k.u), b.along(k.j, k.v)
-    away = Q - P
+    gap = Q - P
     spin = b.turning(k.j) - b.turning(k.i)
     slip = b.moving(k.j, Q) - b.moving(k.i, P)
-    drift = slip + skew(away) @ b.turning(k.i)
+    drift = slip + skew(gap) @ b.turning(k.i)
     e, f = across(u)
 
     def component(*directions: Array) -> tuple[list[Array], list[Array]]:
-        values = [np.einsum("...a,...a->...", d, away)[..., None] for d in directions]
+        values = [np.einsum("...a,...a->...", d, gap)[..., None] for d in directions]
         return values, [dot(d, drift) for d in directions]
 
     together = v - u, skew(u) @ b.turning(k.i) - skew(v) @ b.turning(k.j)
     if k.kind == "R":
-        return [away, together[0]], [slip, together[1]], [dot(u, spin)]
+        return [gap, together[0]], [slip, together[1]], [dot(u, spin)]
     if k.kind == "S":
-        return [away], [slip], [spin]
+        return [gap], [slip], [spin]
     if k.kind == "U":
         right = np.einsum("...a,...a->...", u, v)[..., None]
-        return [away, right], [slip, dot(cross(v, u), spin)], [dot(u, spin), dot(v, spin)]
+        return [gap, right], [slip, dot(cross(v, u), spin)], [dot(u, spin), dot(v, spin)]
     values, rows = component(e, f)
     if k.kind == "C":
         return [together[0], *values], [together[1], *rows], [dot(u, spin), dot(u, drift)]

@@ -97,9 +97,9 @@ def _idle(pairs: tuple[Pair, ...]) -> Iterable[tuple[int, Array]]:
     for body in sorted(bodies):
         own = of(body)
         if len(own) == 2 and {pair.kind for pair in own} == {"S"}:
-            away = end(own[0], body) - end(own[1], body)
-            if np.linalg.norm(away) > 0:
-                yield body, away / np.linalg.norm(away)
+            gap = end(own[0], body) - end(own[1], body)
+            if np.linalg.norm(gap) > 0:
+                yield body, gap / np.linalg.norm(gap)
     for slide in pairs:
         if slide.kind != "P" or 0 in (slide.i, slide.j):
             continue

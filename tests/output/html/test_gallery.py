@@ -10,7 +10,7 @@ import pytest
 import sympy
 
 from singsym.classes.classify import Limits, classify, classify_equation
-from singsym.kinematics import from_sympy
+from singsym.kinematics import SymbolicSpace, from_sympy
 from singsym.mechanism import load
 from singsym.output.gallery_list import kind
 from singsym.output.html.gallery import Card, card, index, page_name
@@ -79,7 +79,9 @@ def test_undecided_classes_are_named() -> None:
 
 def test_equations_without_a_mechanism_have_no_place() -> None:
     c, s = sympy.symbols("c s")
-    equation = from_sympy(sympy.Matrix([[1, -s]]), [("T", "output"), ("A", "input")], [c**2 + s**2 - 1])
+    equation = from_sympy(
+        sympy.Matrix([[1, -s]]), [("T", "output"), ("A", "input")], SymbolicSpace([c**2 + s**2 - 1])
+    )
     result = classify_equation(None, equation, cache=False)
     with pytest.raises(ValueError, match="without a mechanism"):
         card(result)

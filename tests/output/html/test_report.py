@@ -12,7 +12,7 @@ import pytest
 import sympy
 
 from singsym.classes.classify import classify, classify_equation
-from singsym.kinematics import from_sympy
+from singsym.kinematics import SymbolicSpace, from_sympy
 from singsym.mechanism import load
 from singsym.output.html.mathml import name
 from singsym.output.html.report import report
@@ -71,7 +71,7 @@ def test_names_of_determinants() -> None:
 def test_given_equations_have_a_page_without_figures_of_a_mechanism() -> None:
     c, s = sympy.symbols("c s")
     L = sympy.Matrix([[1, -s]])
-    equation = from_sympy(L, [("T", "output"), ("A", "input")], [c**2 + s**2 - 1])
+    equation = from_sympy(L, [("T", "output"), ("A", "input")], SymbolicSpace([c**2 + s**2 - 1]))
     page = report(classify_equation(None, equation, cache=False))
     assert "Given equations" in page
     assert 'id="class-1"' in page

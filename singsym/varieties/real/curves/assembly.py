@@ -100,17 +100,17 @@ def assemble(
 def _marked(system: System, samples: Samples, stars: Sequence[Star]) -> _Marked:
     size = len(system.ring.names)
     points = _smooth_points(system, samples, stars)
-    first, repeated = _distinct(points)
+    distinct, repeated = _distinct(points)
     ends = as_balls(samples.ends, size)
-    parts = [first, *(s.gates for s in stars), ends]
+    parts = [distinct, *(s.gates for s in stars), ends]
     balls = Balls(np.concatenate([b.mid for b in parts]), np.concatenate([b.rad for b in parts]))
-    vague = [np.zeros(len(first.mid), dtype=bool)]
+    vague = [np.zeros(len(distinct.mid), dtype=bool)]
     vague += [np.full(s.degree, not s.exact) for s in stars]
     vague.append(np.zeros(len(ends.mid), dtype=bool))
     nodes = [("singular", k) for k, s in enumerate(stars) for _ in range(s.degree)]
     nodes += [("end", k) for k in range(len(ends.mid))]
-    count = len(first.mid)
-    along = kernels(system, first.mid) if count else first.mid
+    count = len(distinct.mid)
+    along = kernels(system, distinct.mid) if count else distinct.mid
     inward = _downward(system, samples.objective, ends)
     directions = np.concatenate([along, -along, *(s.outward for s in stars), inward])
     owner = np.concatenate([np.arange(count), np.arange(count), np.arange(count, len(balls.mid))])
@@ -138,12 +138,12 @@ def _smooth_points(system: System, samples: Samples, stars: Sequence[Star]) -> B
 def _distinct(points: Balls) -> tuple[Balls, Balls]:
     """One of each group of points closer than rounding, and the others."""
     size = 1 + np.abs(points.mid).max(initial=0.0)
-    first: list[int] = []
-    later: list[int] = []
+    kept: list[int] = []
+    repeated: list[int] = []
     for k, point in enumerate(points.mid):
-        near = first and np.linalg.norm(points.mid[first] - point, axis=1).min() < 1e-8 * size
-        (later if near else first).append(k)
-    return tuple(Balls(points.mid[rows], points.rad[rows]) for rows in (first, later))  # type: ignore[return-value]
+        near = kept and np.linalg.norm(points.mid[kept] - point, axis=1).min() < 1e-8 * size
+        (repeated if near else kept).append(k)
+    return tuple(Balls(points.mid[rows], points.rad[rows]) for rows in (kept, repeated))  # type: ignore[return-value]
 
 
 def _downward(system: System, objective: Polynomial, ends: Balls) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Numerical tracking of many arcs of a curve at once; what it finds is proven elsewhere.
+"""Numerical tracking of many arcs of a curve at once; what it finds is proven by tubes.
 
 Source: E. L. Allgower, K. Georg, Introduction to Numerical Continuation Methods, SIAM 2003, ch. 6
 (predictor by tangent and curvature, corrector by Newton in the normal hyperplane).

@@ -124,11 +124,11 @@ class _Tower:
         rest = [q for q in others if q.degree(name) <= 0]
         reduced = [r for q in holding if len(r := _remainder(q, p, name)) <= _LONGEST]
         known = lead.is_constant or lead.primitive() in case.nonzero
-        away = case.nonzero if known else case.nonzero | {f for f, _ in lead.factors()}
+        nonzero = case.nonzero if known else case.nonzero | {f for f, _ in lead.factors()}
         if k > 1 and any(r.degree(name) > 0 for r in reduced):
-            off = _Case((p, *rest, *reduced), away, case.names, name)
+            off = _Case((p, *rest, *reduced), nonzero, case.names, name)
         else:
-            off = _Case((*rest, *reduced), away, case.names - {name})
+            off = _Case((*rest, *reduced), nonzero, case.names - {name})
         return (off,) if known else (off, replace(case, equations=(lead, tail, *others), variable=""))
 
     def _choices(self, case: _Case) -> Iterator[tuple[tuple[int, ...], Polynomial, str]]:

@@ -58,12 +58,12 @@ def union(extents: Iterable[Extent], doubts: Iterable[str] = ()) -> Extent:
     '2'
     """
     parts = tuple(extents)
-    least = max((e.at_least for e in parts), default=-1)
+    at_least = max((e.at_least for e in parts), default=-1)
     reasons = list(doubts)
-    reasons += [e.open or "no bound was found" for e in parts if e.at_most is None or e.at_most > least]
+    reasons += [e.open or "no bound was found" for e in parts if e.at_most is None or e.at_most > at_least]
     if reasons:
         bounds = [e.at_most for e in parts]
         known = [b for b in bounds if b is not None]
-        most = max(known, default=None) if len(known) == len(bounds) and not tuple(doubts) else None
-        return Extent(least, most, open="; ".join(dict.fromkeys(reasons)))
-    return Extent(least, least, weakest(*(e.bounded for e in parts if e.at_most == least)))
+        at_most = max(known, default=None) if len(known) == len(bounds) and not tuple(doubts) else None
+        return Extent(at_least, at_most, open="; ".join(dict.fromkeys(reasons)))
+    return Extent(at_least, at_least, weakest(*(e.bounded for e in parts if e.at_most == at_least)))

@@ -56,7 +56,7 @@ def are_dependent(system: RealSystem, dimension: int, circles: Iterable[Pair] = 
         return _MET
     random = chance.random("independent coordinates", *equations)
     small = [ring.convert(p) for p in equations]
-    nonzero = [ring.convert(p) for p in system.away if set(p.variables) <= set(ring.names)]
+    nonzero = [ring.convert(p) for p in system.exclusion_polynomials if set(p.variables) <= set(ring.names)]
     for chosen in combinations(coordinates, count):
         values = {name: value for names in chosen for name, value in random_values(ring, names, random)}
         if not is_missed(small, values, nonzero).is_yes:

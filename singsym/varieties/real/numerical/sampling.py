@@ -109,7 +109,7 @@ def is_off(
 
 
 def is_large(
-    polynomial: Polynomial, points: Points, least: float = 1e-6, sizes: Sequence[float] | None = None
+    polynomial: Polynomial, points: Points, threshold: float = 1e-6, sizes: Sequence[float] | None = None
 ) -> bool:
     """Whether a polynomial is certainly not small at one of the points.
 
@@ -119,6 +119,6 @@ def is_large(
     size = largest_term(polynomial, sizes or (1.0,) * len(polynomial.ring.names))
     for x in points:
         value = abs(polynomial.evaluate(x))
-        if value > least * size and value > ROUNDING * largest_term(polynomial, tuple(map(abs, x))):
+        if value > threshold * size and value > ROUNDING * largest_term(polynomial, tuple(map(abs, x))):
             return True
     return False

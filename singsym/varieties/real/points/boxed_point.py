@@ -6,15 +6,15 @@ Source: Krawczyk, Computing 4 (1969) 187-201.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Any
 
 from flint import arb, arb_mat
 
 from singsym.effort.budget import Undecided
 from singsym.polynomials import Polynomial, Ring
+from singsym.varieties.real.points.enclosed_point import EnclosedPoint
 from singsym.varieties.real.points.intervals import (
     at_precision,
     ball,
@@ -28,26 +28,19 @@ from singsym.varieties.real.points.intervals import (
 _MOST_BITS = 4096
 
 
-@dataclass(frozen=True)
-class BoxPoint:
+@dataclass(frozen=True, repr=False)
+class BoxPoint(EnclosedPoint):
     """The only solution of `equations` in a box, with some coordinates at rationals.
 
     middles: rationals for all names, in order; unknowns: the names that the equations determine; the box of
     these is middle +- radius.  Signs are decided where they are not zero, and for the equations themselves.
     """
 
-    ring: Ring
     equations: tuple[Polynomial, ...]
     unknowns: tuple[str, ...]
     middles: tuple[Fraction, ...]
     radius_bound: Fraction
     bits: int = 64
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {f.name: getattr(self, f.name) for f in fields(self)}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__.update(state)
 
     @cached_property
     def box(self) -> tuple[arb, ...]:
@@ -86,10 +79,6 @@ class BoxPoint:
     def floats(self) -> tuple[float, ...]:
         """The coordinates in double precision."""
         return tuple(float(m) for m in self.middles)
-
-    def __getitem__(self, name: str) -> arb:
-        """The ball of one coordinate."""
-        return self.box[self.ring.index(name)]
 
     def decimals(self, digits: int = 12) -> dict[str, str]:
         """The coordinates by name to so many digits."""
@@ -133,10 +122,6 @@ class BoxPoint:
     def _normal(self) -> frozenset[Polynomial]:
         return frozenset(p.primitive() for p in self.equations)
 
-    def __repr__(self) -> str:
-        values = ", ".join(f"{name}={value}" for name, value in self.decimals(6).items())
-        return f"BoxPoint({values})"
-
 
 def boxed_point(
     ring: Ring,
@@ -171,7 +156,7 @@ def _sharpened(
     with at_precision(bits + 64):
         point = [ball(m) for m in middles]
         # the next step would be shorter than the square of this one, up to a factor
-        least = arb(2) ** (-(bits // 2) - 16)
+        negligible = arb(2) ** (-(bits // 2) - 16)
         for _ in range(bits.bit_length() + 8):
             slopes = arb_mat([[evaluate(d, point) if d else arb(0) for d in row] for row in derivatives])
             values = arb_mat([[evaluate(f, point)] for f in equations])
@@ -181,7 +166,7 @@ def _sharpened(
                 return None
             for i, k in enumerate(places):
                 point[k] = arb((point[k] - step[i, 0]).mid())
-            if all(abs(step[i, 0]) < least for i in range(len(places))):
+            if all(abs(step[i, 0]) < negligible for i in range(len(places))):
                 break
         radius = Fraction(1, 2**bits)
         if krawczyk(equations, unknowns, point, radius) is None:

@@ -6,21 +6,21 @@ Source: Rouillier (1999), see parametrization.py; roots as in roots.py.
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Any
 
 from flint import arb, fmpz_poly
 
 from singsym.polynomials import Polynomial, Ring
+from singsym.varieties.real.points.enclosed_point import EnclosedPoint
 from singsym.varieties.real.points.intervals import at_precision, evaluate, exact_bounds
 from singsym.varieties.real.points.parametrization import Parametrization
 from singsym.varieties.real.points.roots import real_roots, refined_root
 
 
-@dataclass(frozen=True)
-class RealPoint:
+@dataclass(frozen=True, repr=False)
+class RealPoint(EnclosedPoint):
     """A real point with coordinates numerators[i](t) / denominator(t) at one real root t of `minimal`.
 
     minimal is irreducible over Q, so the point is a real point of a maximal ideal of Q[names]; [low, high]
@@ -29,20 +29,12 @@ class RealPoint:
     another system is another object, see `coincides`.
     """
 
-    ring: Ring
     minimal: tuple[int, ...]
     denominator: tuple[int, ...]
     numerators: tuple[tuple[int, ...], ...]
     low: Fraction
     high: Fraction
     bits: int = 64
-
-    def __getstate__(self) -> dict[str, Any]:
-        """Without the balls, which cannot be pickled and are found again."""
-        return {f.name: getattr(self, f.name) for f in fields(self)}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__.update(state)
 
     # -- numbers ---------------------------------------------------------------------------------
 
@@ -84,10 +76,6 @@ class RealPoint:
     def floats(self) -> tuple[float, ...]:
         """The coordinates rounded to floats, for drawing and for starting numerics."""
         return tuple(float(b.mid()) for b in self.box)
-
-    def __getitem__(self, name: str) -> arb:
-        """The ball of one coordinate."""
-        return self.box[self.ring.index(name)]
 
     def rational(self, name: str) -> Fraction | None:
         """The coordinate where it is rational over its own definition, else `None`."""
@@ -173,10 +161,6 @@ class RealPoint:
         if not all(a.overlaps(b) for a, b in zip(self.box, other.box, strict=True)):
             return False
         return all(_equal_coordinates(self, other, i) for i in range(len(self.ring.names)))
-
-    def __repr__(self) -> str:
-        values = ", ".join(f"{name}={value}" for name, value in self.decimals(6).items())
-        return f"RealPoint({values})"
 
 
 def real_points_of(parametrization: Parametrization, bits: int = 64) -> list[RealPoint]:

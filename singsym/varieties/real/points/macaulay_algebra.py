@@ -153,17 +153,17 @@ class _Rows:
         pivots = [columns[next(j for j in range(len(columns)) if echelon[r, j])] for r in range(rank)]
         transposed, _ = matrix.transpose().rref()
         chosen = [vectors[next(j for j in range(len(vectors)) if transposed[r, j])] for r in range(rank)]
-        taken = set(pivots)
+        pivot_set = set(pivots)
         for bound in range(self.degree + 1):
-            if taken.issuperset(self.layers[bound]):
+            if pivot_set.issuperset(self.layers[bound]):
                 self.bound = bound
                 return pivots, chosen
         return None
 
     def basis(self, pivots: Sequence[Exponents]) -> list[Exponents] | None:
         """The monomials that are no pivots, smallest first; `None` where one is not a multiple of another."""
-        taken = set(pivots)
-        found = [m for layer in self.layers[: self.bound] for m in layer if m not in taken]
+        pivot_set = set(pivots)
+        found = [m for layer in self.layers[: self.bound] for m in layer if m not in pivot_set]
         known = set(found)
         for m in found:
             below = [(*m[:i], e - 1, *m[i + 1 :]) for i, e in enumerate(m) if e]
@@ -211,8 +211,8 @@ class _Rows:
         count = len(basis)
         index = {m: r for r, m in enumerate(pivots)}
         place = {m: k for k, m in enumerate(basis)}
-        taken = {*pivots, *basis}
-        targets = [*basis, *(m for m in self.columns if m not in taken)]
+        pivots_and_basis = {*pivots, *basis}
+        targets = [*basis, *(m for m in self.columns if m not in pivots_and_basis)]
         solved = _solved(chosen, pivots, targets)
         low = [index[m] for m in pivots if sum(m) <= self.bound]
         if any(solved[r, k] for r in low for k in range(count, len(targets))):

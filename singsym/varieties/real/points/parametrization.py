@@ -225,12 +225,12 @@ def _candidate(ring: Ring, residues: Sequence[int], modulus: int, count: int) ->
     if rationals is None:
         return None
     numbers, _ = rationals
-    first = fmpz_poly(numbers[: count + 1])
-    content = first.content()
-    minimal = fmpz_poly([c // content for c in first.coeffs()])
+    multiple = fmpz_poly(numbers[: count + 1])
+    content = multiple.content()
+    minimal = fmpz_poly([c // content for c in multiple.coeffs()])
     numerators = [fmpz_poly(numbers[k : k + count]) for k in range(count + 1, len(numbers), count)]
     # x_i = (N_i/d) / (m/d)' with the common denominator d cancelled
-    parts = [first.derivative(), *numerators]
+    parts = [multiple.derivative(), *numerators]
     shared = fmpz(0)
     for p in parts:
         shared = shared.gcd(p.content())

@@ -16,7 +16,7 @@ def circle(a: int, r: int) -> Polynomial:
 
 
 @pytest.mark.parametrize(
-    ("kept", "taken", "left"),
+    ("kept", "removed", "left"),
     [
         ((circle(0, 1),), (circle(5, 1),), 1),
         # the line through both circles joins them; without it they are two
@@ -28,11 +28,11 @@ def circle(a: int, r: int) -> Polynomial:
     ],
 )
 def test_arcs_of_what_is_taken_out_join_nothing(
-    kept: tuple[Polynomial, ...], taken: tuple[Polynomial, ...], left: int
+    kept: tuple[Polynomial, ...], removed: tuple[Polynomial, ...], left: int
 ) -> None:
     own, other = x.ring.one, x.ring.one
     for p in kept:
         own = own * p
-    for p in taken:
+    for p in removed:
         other = other * p
     assert components_outside(real_curve([own * other]), [[other]], [own]) == left
