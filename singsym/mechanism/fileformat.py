@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from singsym.mechanism.checks import check
+from singsym.mechanism.choices import Choice
 from singsym.mechanism.expressions import DecimalText, Quantities
 from singsym.mechanism.joints import read_inputs, read_joints
 from singsym.mechanism.library import names as library_names
@@ -35,9 +36,10 @@ _PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*\.[ \t]*"""
 _DEEP_KEY = re.compile(rf"(?:{_PART}){{50}}")
 
 
-def load(name: str | Path) -> Mechanism:
-    """The checked mechanism of a file, or of a name in the library.
+def load(name: str | Path, choice: Choice | None = None) -> Mechanism:
+    """The checked mechanism of a file, TOML or URDF, or of a name in the library.
 
+    choice: the chain of a URDF file; joints that are held, components of the output.
     Raises `MechanismError` with every problem, `FileNotFoundError` where there is no such file or name.
 
     >>> hybrid = load("zlatanov-hybrid").with_parameters(a="3/2")
@@ -45,13 +47,39 @@ def load(name: str | Path) -> Mechanism:
     (3/2, 0, 0)
     """
     if str(name) in library_names():
-        return loads(library_text(str(name)), origin=f"{name}.toml")
+        return _chosen(library_text(str(name)), f"{name}.toml", choice)
     path = Path(name)
     if not path.is_file():
         close = get_close_matches(str(name), library_names(), 3)
         advice = f"did you mean {' or '.join(close)}?" if close else "singsym list shows the library"
         raise FileNotFoundError(f"no file and no mechanism of the library is called {name}; {advice}")
-    return loads(read_text(path), origin=str(name))
+    if is_robot_file(path):
+        from singsym.mechanism.urdf import from_urdf
+
+        return from_urdf(path, choice)
+    return _chosen(read_text(path), str(name), choice)
+
+
+def is_robot_file(path: str | Path) -> bool:
+    """Whether a file is XML, or named as files of robots are, and not a mechanism file in TOML."""
+    if Path(path).suffix.lower() in (".urdf", ".xacro", ".sdf", ".world", ".mjcf", ".xml"):
+        return True
+    with Path(path).open("rb") as stream:
+        return stream.read(100).lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<")
+
+
+def _chosen(text: str, origin: str, choice: Choice | None) -> Mechanism:
+    """The mechanism of a file with what is chosen of it; before that its output need not fit its inputs."""
+    if choice is None or choice == Choice():
+        return loads(text, origin)
+    mechanism, problems = read(tables(text, origin), origin)
+    problems = problems or tuple(p for p in check(mechanism) if p.place != "output")
+    if problems:
+        raise MechanismError(problems)
+    mechanism = choice.applied(mechanism)
+    if problems := check(mechanism, choice.redundant):
+        raise MechanismError(problems)
+    return mechanism
 
 
 def read_text(path: str | Path) -> str:

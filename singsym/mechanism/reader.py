@@ -20,6 +20,8 @@ from singsym.mechanism.problems import MechanismError, Problem, shorten
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 
+LONGEST_NAME = 60
+"""Letters in a name of a link, joint, point, axis or parameter."""
 NOT_ALGEBRAIC = "a number made of rationals, roots and sin, cos of rational multiples of pi"
 
 
@@ -90,7 +92,9 @@ class Reader:
     def name(self, value: Any, place: str) -> str:
         """A name of a link, joint, point, axis or parameter."""
         text = self.text(value, place)
-        if isinstance(value, str) and (not _NAME.fullmatch(text) or text in RESERVED or len(text) > 60):
+        if isinstance(value, str) and (
+            not _NAME.fullmatch(text) or text in RESERVED or len(text) > LONGEST_NAME
+        ):
             expected = "a name of letters, digits and _, starting with a letter, other than "
             self.report(place, f"the name {shorten(text)!r}", expected + ", ".join(RESERVED))
         return text
