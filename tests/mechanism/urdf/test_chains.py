@@ -92,7 +92,7 @@ def test_a_chain_starts_below_a_joint_of_more_freedoms(tmp_path: Path, kind: str
 
 
 def test_mimic_joints(tmp_path: Path) -> None:
-    """A joint that follows a held one is held too, at multiplier * value + offset; one that moves is refused."""
+    """A joint that follows a held one is held too, at multiplier * value + offset; others are refused."""
     three = arm(3)
     relation = 'joint="to_l2" multiplier="-2" offset="0.5"'
     follower = joint("revolute", "l3", "l4", axis="0 1 0", mimic=relation)
