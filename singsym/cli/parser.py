@@ -14,7 +14,7 @@ STORY = """\
 Finds and classifies every singularity of a mechanism, exactly.
 
 A mechanism is a name of the library (singsym list) or a file of one's own, TOML
-(singsym new writes a commented one) or URDF for arms.  Its singular configurations
+(singsym new writes a commented one) or a robot's URDF.  Its singular configurations
 are found from the velocity equation L m = 0, and divided into the 21 classes of
 Zlatanov, Fenton and Benhabib by the six types RI RO RPM II IO IIM; each class is
 proven empty, or shown by a certified configuration."""
@@ -24,6 +24,8 @@ examples:
   singsym classify zlatanov-2dof              which classes occur, where, how often
   singsym conditions stewart-gough            the factored singularity conditions
   singsym classify zlatanov-hybrid --set a=3/2 --workers 2
+  singsym show robot.urdf                     its chains, joints and limits
+  singsym conditions robot.urdf --tip tool0 --lock elbow=0
   singsym new mine && singsym check mine.toml && singsym classify mine.toml
 
 Results go to stdout, messages to stderr.  Exit code: 0 decided, 3 a class,

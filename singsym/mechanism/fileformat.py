@@ -146,8 +146,8 @@ def tables(text: str, origin: str = "") -> dict[str, Any]:
         raise MechanismError([Problem("file", found, expected, advice, origin)]) from None
     except (RecursionError, ValueError) as error:
         # int() refuses more than 4300 digits, and the parser recurses on nested lists.
-        deep = isinstance(error, RecursionError)
-        found, expected = ("lists nested too deep", "TOML") if deep else LONG_NUMBER
+        nested = isinstance(error, RecursionError)
+        found, expected = ("lists nested too deep", "TOML") if nested else LONG_NUMBER
         raise MechanismError([Problem("file", found, expected, file=origin)]) from None
 
 

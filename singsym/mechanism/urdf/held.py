@@ -5,6 +5,7 @@ Source: the URDF specification (https://wiki.ros.org/urdf/XML), <mimic>.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from singsym.mechanism.choices import Choice
@@ -34,7 +35,7 @@ def held_joints(robot: Robot, chain: Chain, choice: Choice) -> dict[str, Any]:
             held[joint.name] = expression(mimic.multiplier) * led + expression(mimic.offset)
     for joint in chain.moving:
         if joint.name not in held and joint.mimic is not None and joint.mimic.joint in names:
-            raise _coupled(robot, chain, joint)
+            raise _coupled(robot, chain, joint, held)
     if len(held) == len(names):
         raise robot.fault("joints", "no joint that moves", f"one or more among {', '.join(names)}")
     return held
@@ -46,12 +47,20 @@ def _follows(chain: Chain, name: str) -> bool:
     return joint.mimic is not None and any(other.name == joint.mimic.joint for other in chain.moving)
 
 
-def _coupled(robot: Robot, chain: Chain, joint: RobotJoint) -> Exception:
+def _led(joint: RobotJoint, leader: RobotJoint) -> bool:
+    return joint.mimic is not None and joint.mimic.joint == leader.name
+
+
+def _coupled(robot: Robot, chain: Chain, joint: RobotJoint, held: Mapping[str, Any]) -> Exception:
+    """A joint that follows one that moves: the leader may be held, or the chain end before."""
     mimic = joint.mimic
     assert mimic is not None
     plus = f" + {mimic.offset:g}" if mimic.offset else ""
     found = f"a mimic joint, {mimic.multiplier:g} * {mimic.joint}{plus}"
-    advice = f"hold its leader, as --lock {mimic.joint}=0"
+    leader = next(other for other in chain.moving if other.name == mimic.joint)
+    still = [j for j in chain.moving if j.name not in held and j is not leader and not _led(j, leader)]
+    ways = [f"hold its leader, as --lock {leader.name}={leader.resting}"] if still else []
     if joint is not chain.moving[0]:
-        advice += f", or end the chain before it, as --tip {joint.parent}"
+        ways.append(f"end the chain before it, as --tip {joint.parent}")
+    advice = ", or ".join(ways)
     return robot.fault(f"joint {joint.name}", found, "joints of which each moves on its own", advice)

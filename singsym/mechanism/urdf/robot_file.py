@@ -5,6 +5,8 @@ Source: the URDF specification (https://wiki.ros.org/urdf/XML); XML is read by P
 
 from __future__ import annotations
 
+import math
+import re
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -26,6 +28,7 @@ _OTHERS = {
     "world": ("a world of several models", "give the URDF file of one robot"),
     "COLLADA": ("a COLLADA scene", "give the URDF file that names it"),
 }
+_LATE_DECLARATION = re.compile(rb"(?<=[\s>])<\?xml[^>]*\?>")
 _MACROS = {"include", "macro", "if", "unless", "arg"}
 _START = "`singsym new NAME` writes a TOML file to start from"
 
@@ -62,6 +65,19 @@ class RobotJoint:
     def moves(self) -> bool:
         """Whether it has one freedom."""
         return self.kind in MOVING
+
+    @property
+    def resting(self) -> str:
+        """A value at which it may be held: zero, or a short number within limits that leave zero out.
+
+        >>> RobotJoint("j", "revolute", "a", "b", lower=-3.05, upper=-0.07).resting
+        '-2'
+        """
+        low, high = self.lower, self.upper
+        if low is None or high is None or low <= 0 <= high or not math.isfinite(low + high):
+            return "0"
+        middle = (low + high) / 2
+        return next(text for d in range(1, 18) if low <= float(text := f"{middle:.{d}g}") <= high or d == 17)
 
 
 @dataclass(frozen=True)
@@ -124,7 +140,7 @@ def _xml(path: Path, file: str) -> Element:
     parser.EndElementHandler = builder.end
     parser.EntityDeclHandler = _refuse_entities
     try:
-        parser.Parse(content.lstrip(), True)
+        parser.Parse(_LATE_DECLARATION.sub(b"", content, count=1), True)
         root = builder.close()
     except (expat.ExpatError, ValueError) as error:
         found = f"no XML: {error}"

@@ -98,9 +98,7 @@ def _redundant(
     free = [joint for joint in chain.moving if joint.name not in held]
     kept = _kept(columns, len(free), rank)
     offered = " ".join(
-        f"--lock {joint.name}={_middle(joint.lower, joint.upper, joint.kind)}"
-        for place, joint in enumerate(free)
-        if place not in kept
+        f"--lock {joint.name}={joint.resting}" for place, joint in enumerate(free) if place not in kept
     )
     reduced = [rates[:, sorted(kept)] for rates in columns]
     if rank < 6 and not (rank == 3 and max(_rank(rates[3:]) for rates in reduced) == 3):
@@ -127,13 +125,6 @@ def _kept(columns: Sequence[Any], count: int, rank: int) -> list[int]:
         if max(_rank(rates[:, [*kept, place]]) for rates in columns) == len(kept) + 1:
             kept.append(place)
     return kept
-
-
-def _middle(lower: float | None, upper: float | None, kind: str) -> str:
-    """Zero, or where that is outside the limits a number in their middle."""
-    if lower is None or upper is None or lower <= 0 <= upper or not math.isfinite(lower + upper):
-        return "0"
-    return f"{(lower + upper) / 2:.2g}" if kind == "prismatic" else f"{(lower + upper) / 2:.1f}"
 
 
 def columns_of(chain: Chain, values: Mapping[str, float], seed: int) -> list[list[float]]:

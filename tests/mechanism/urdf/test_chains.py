@@ -104,6 +104,10 @@ def test_mimic_joints(tmp_path: Path) -> None:
     assert [j.name for j in held.joints] == ["to_l1", "to_l3"]
     assert "Locked: to_l2 at 1/4, to 1e-6." in held.description
     assert "Locked: to_l4 at 0." in held.description
+    # with nothing else in the chain there is nothing left to move, and its end alone is offered
+    pair = [joint("revolute", "a", "b"), joint("revolute", "b", "c", mimic='joint="to_b"')]
+    with pytest.raises(MechanismError, match=r"each moves on its own; end the chain before it, as --tip b$"):
+        from_urdf(write(tmp_path, *pair))
     # one that follows a joint of another branch has a rate of its own
     jaw = joint("revolute", "l0", "jaw", axis="0 0 1")
     other = joint("revolute", "l3", "l4", axis="0 1 0", mimic='joint="to_jaw"')

@@ -81,6 +81,9 @@ def test_what_does_not_matter_is_passed_over(tmp_path: Path) -> None:
         encoding="utf-8",
     )
     found = read_robot(path)
+    late = "<robot><link name='a'/></robot>"
+    path.write_text(f"<!-- written by hand -->\n<?xml version='1.0'?>{late}", encoding="utf-8")
+    assert read_robot(path).links == ("a",)
     assert (found.name, found.joints[0].xyz) == ("r", (1.0, 2.0, 3.0))
     unnamed = load(CASES / "no-robot-name.urdf", Choice(components=("wx",)))
     assert (unnamed.name, unnamed.inputs) == ("no-robot-name", ("j",))
