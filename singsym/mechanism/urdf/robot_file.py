@@ -22,15 +22,23 @@ LARGEST = 50_000_000
 MOVING = ("revolute", "continuous", "prismatic")
 KINDS = (*MOVING, "fixed", "floating", "planar")
 
+_START = "`singsym new NAME` writes a TOML file to start from"
 _OTHERS = {
-    "sdf": ("SDF, the format of Gazebo", "convert it to URDF first, or write its loops as TOML"),
-    "mujoco": ("MJCF, the format of MuJoCo", "convert it to URDF first, or write its loops as TOML"),
+    "sdf": (
+        "SDF, the format of Gazebo",
+        f"for a serial arm run rod, a Python package: rod --file {{name}} -o robot.urdf; for loops {_START}",
+    ),
+    "mujoco": (
+        "MJCF, the format of MuJoCo",
+        "for a serial arm call convert('{name}', 'robot.urdf') of mjcf_urdf_simple_converter, a Python "
+        f"package; for loops {_START}",
+    ),
     "world": ("a world of several models", "give the URDF file of one robot"),
     "COLLADA": ("a COLLADA scene", "give the URDF file that names it"),
 }
+"""By the root element what a file is, and what to do with it."""
 _LATE_DECLARATION = re.compile(rb"(?<=[\s>])<\?xml[^>]*\?>")
 _MACROS = {"include", "macro", "if", "unless", "arg"}
-_START = "`singsym new NAME` writes a TOML file to start from"
 
 
 @dataclass(frozen=True)
@@ -153,7 +161,7 @@ def _xml(path: Path, file: str) -> Element:
     what, advice = _OTHERS.get(root.tag, (f"XML that starts with <{shorten(root.tag)}>", ""))
     if root.tag == "sdf" and root.find("world") is not None:
         what = "a world in SDF, the format of Gazebo"
-    advice = f"{advice}: {_START}" if "TOML" in advice else advice
+    advice = advice.format(name=shorten(path.name))
     raise MechanismError([Problem("file", what, expected, advice, file)])
 
 
