@@ -165,7 +165,7 @@ def _parts(command: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="A,B,...",
-        help="those that move; hold all others at 0",
+        help="those that move; hold all others at 0, or in a URDF file within limits that leave 0 out",
     )
 
 

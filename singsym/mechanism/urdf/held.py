@@ -17,19 +17,32 @@ from singsym.mechanism.urdf.robot_file import Robot, RobotJoint
 def held_joints(robot: Robot, chain: Chain, choice: Choice) -> dict[str, Any]:
     """Values by the file's names: those asked for, and of mimic joints whose leaders are held.
 
+    What is held because others alone are to move is at zero, or within limits that leave zero out.
+
     Raises `MechanismError` for names that the chain does not have, for a chain with no joint left to move,
-    and for mimic joints that follow one that moves in the chain: no coupling of joints is known here.
+    and for mimic joints that follow one that moves in the chain, or are asked for by themselves: no coupling
+    is known here.
     """
     names = [joint.name for joint in chain.moving]
     held = choice.held(names, robot.file)
-    if choice.joints:
-        held = {
-            name: value for name, value in held.items() if name in choice.lock or not _follows(chain, name)
-        }
+    for joint in chain.moving:
+        leader = None if joint.mimic is None or joint.mimic.joint not in names else joint.mimic.joint
+        if leader and (joint.name in choice.lock or joint.name in choice.joints):
+            found, expected = (
+                f"{joint.name!r}, which follows {leader}",
+                "joints that follow none of the chain",
+            )
+            raise robot.fault(
+                "lock" if joint.name in choice.lock else "joints", found, expected, f"name {leader}"
+            )
+        if leader:
+            held.pop(joint.name, None)
+        elif joint.name in held and joint.name not in choice.lock:
+            held[joint.name] = joint.resting
     for _ in names:
         for joint in chain.moving:
             mimic = joint.mimic
-            if mimic is None or joint.name in choice.lock or (mimic.joint not in held and mimic.multiplier):
+            if mimic is None or joint.name in held or (mimic.joint not in held and mimic.multiplier):
                 continue
             led = expression(held.get(mimic.joint, 0), place=f"lock {mimic.joint}", file=robot.file)
             held[joint.name] = expression(mimic.multiplier) * led + expression(mimic.offset)
@@ -39,12 +52,6 @@ def held_joints(robot: Robot, chain: Chain, choice: Choice) -> dict[str, Any]:
     if len(held) == len(names):
         raise robot.fault("joints", "no joint that moves", f"one or more among {', '.join(names)}")
     return held
-
-
-def _follows(chain: Chain, name: str) -> bool:
-    """Whether a joint follows another of the chain."""
-    joint = next(joint for joint in chain.moving if joint.name == name)
-    return joint.mimic is not None and any(other.name == joint.mimic.joint for other in chain.moving)
 
 
 def _led(joint: RobotJoint, leader: RobotJoint) -> bool:

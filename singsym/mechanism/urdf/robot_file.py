@@ -150,7 +150,7 @@ def _xml(path: Path, file: str) -> Element:
     try:
         parser.Parse(_LATE_DECLARATION.sub(b"", content, count=1), True)
         root = builder.close()
-    except (expat.ExpatError, ValueError) as error:
+    except (expat.ExpatError, ValueError, LookupError) as error:
         found = f"no XML: {error}"
         raise MechanismError([Problem("file", found, expected, file=file)]) from None
     if root.tag == "robot":

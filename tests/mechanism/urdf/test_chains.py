@@ -104,6 +104,13 @@ def test_mimic_joints(tmp_path: Path) -> None:
     assert [j.name for j in held.joints] == ["to_l1", "to_l3"]
     assert "Locked: to_l2 at 1/4, to 1e-6." in held.description
     assert "Locked: to_l4 at 0." in held.description
+    for choice in (Choice(lock={"to_l4": 0}), Choice(joints=("to_l1", "to_l4"))):
+        with pytest.raises(MechanismError, match=r"'to_l4', which follows to_l2.*name to_l2"):
+            from_urdf(path, choice)
+    assert from_urdf(path, Choice(joints=("to_l1", "to_l3"), components=("vx", "vz"))).inputs == (
+        "to_l1",
+        "to_l3",
+    )
     # with nothing else in the chain there is nothing left to move, and its end alone is offered
     pair = [joint("revolute", "a", "b"), joint("revolute", "b", "c", mimic='joint="to_b"')]
     with pytest.raises(MechanismError, match=r"each moves on its own; end the chain before it, as --tip b$"):

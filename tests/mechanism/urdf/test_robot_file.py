@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
 
-from singsym.mechanism import Choice, MechanismError, load
+from singsym.mechanism import Choice, MechanismError, dumps, load, loads
 from singsym.mechanism.urdf.robot_file import read_robot
 from tests.mechanism.urdf.files import joint, robot
 
@@ -28,6 +30,7 @@ def said(path: Path, text: str) -> str:
         ("", "an empty file"),
         ("no xml", "text that is no XML"),
         ("<robot", "no XML: unclosed token: line 1"),
+        ('<?xml version="1.0" encoding="nan"?><robot/>', "no XML: unknown encoding: nan"),
         ("<sdf><model/></sdf>", "rod --file robot.urdf -o robot.urdf"),
         ("<sdf><model/></sdf>", "SDF, the format of Gazebo; expected URDF"),
         ("<sdf><world/></sdf>", "a world in SDF"),
@@ -61,6 +64,39 @@ def test_one_sentence(tmp_path: Path, text: str, words: str) -> None:
     found = said(tmp_path / "robot.urdf", text)
     assert words in found
     assert len(found) < 400
+
+
+JUNK = (
+    "",
+    "nan",
+    "1e400",
+    "-0",
+    "1 2",
+    "0 0 0",
+    "0.33333333333333331 1e-7 2",
+    "x",
+    "planar",
+    "b",
+    "2",
+    "1" * 80,
+)
+
+
+def test_whatever_an_attribute_says(tmp_path: Path) -> None:
+    """Each attribute with each value: a mechanism that can be written and read, or a `MechanismError`."""
+    first = joint("revolute", "a", "b", xyz="0.1 0 0", rpy="0 1.5708 0", axis="0 0 1", limit="-1 2")
+    second = joint("prismatic", "b", "c", xyz="0 0.2 0", axis="1 1 0", mimic='joint="to_x" offset="0"')
+    text = robot(first, second)
+    path = tmp_path / "robot.urdf"
+    read = 0
+    for place in re.finditer(r'="([^"]*)"', text):
+        for word in JUNK:
+            path.write_text(text[: place.start(1)] + word + text[place.end(1) :], encoding="utf-8")
+            with suppress(MechanismError):
+                found = load(path, Choice(components=("vx", "wz")))
+                assert loads(dumps(found), origin=str(path)) == found
+                read += 1
+    assert read > 50
 
 
 def test_names_of_files(tmp_path: Path) -> None:

@@ -73,6 +73,12 @@ def test_joints_that_move(tmp_path: Path) -> None:
     held = from_urdf(path, Choice(joints=names))
     assert held.inputs == names
     assert "Locked: to_l4 at 0." in held.description
+    limited = joint("revolute", "l2", "l3", xyz="0.3 0 0.4", axis="0 1 0", limit="-2.5 -0.5")
+    rows = arm(3)
+    bent = from_urdf(
+        write(tmp_path, *rows[:2], limited), Choice(joints=("to_l1", "to_l2"), components=("vx", "vz"))
+    )
+    assert "Locked: to_l3 at -2, to 1e-6." in bent.description
     with pytest.raises(MechanismError, match="no joint that moves"):
         from_urdf(write(tmp_path, *arm(1)), Choice(lock={"to_l1": "0"}))
 
