@@ -26,13 +26,22 @@ if TYPE_CHECKING:
     from singsym.kinematics.own_equation import SymbolicSpace, from_sympy
     from singsym.kinematics.reduction import reduce
     from singsym.kinematics.velocity import loop_closure, velocity_equation
-    from singsym.mechanism import Mechanism, MechanismError, check, define, dumps, load, loads
+    from singsym.mechanism import Choice, Mechanism, MechanismError, check, define, dumps, load, loads
     from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
     from singsym.varieties.constructible import ConstructibleSet
     from singsym.varieties.decomposition import decompose
 
 _HOMES = {
-    "singsym.mechanism": ("Mechanism", "MechanismError", "check", "define", "dumps", "load", "loads"),
+    "singsym.mechanism": (
+        "Choice",
+        "Mechanism",
+        "MechanismError",
+        "check",
+        "define",
+        "dumps",
+        "load",
+        "loads",
+    ),
     "singsym.kinematics.velocity": ("loop_closure", "velocity_equation"),
     "singsym.kinematics.own_equation": ("SymbolicSpace", "from_sympy"),
     "singsym.kinematics.reduction": ("reduce",),
@@ -54,6 +63,7 @@ _HOME = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = [
     "Budget",
+    "Choice",
     "Classification",
     "ConstructibleSet",
     "Defects",

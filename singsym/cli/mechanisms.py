@@ -6,47 +6,57 @@ Source: singsym's own.
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from singsym.cli.screen import UserError, emit_data, emit_page, say
-from singsym.mechanism import Mechanism, MechanismError, check, load
+from singsym.mechanism import Choice, Mechanism, MechanismError, check, load
 from singsym.mechanism.problems import Problem
 
 if TYPE_CHECKING:
     from singsym.kinematics.velocity import VelocityEquation
+    from singsym.mechanism.urdf.chains import Tree
 
 
-def read(chosen: argparse.Namespace) -> Mechanism:
-    """The mechanism that the options name, with its parameters set; `UserError` for what is wrong with it."""
+def read(chosen: argparse.Namespace, redundant: bool = False) -> Mechanism:
+    """The mechanism that the options name, with its parameters set; `UserError` for what is wrong with it.
+
+    redundant: whether it may be a serial chain with more inputs than output components.
+    """
     try:
-        mechanism = _load(chosen.mechanism)
+        mechanism = load(chosen.mechanism, replace(choice_of(chosen), redundant=redundant))
         if chosen.settings:
-            mechanism = mechanism.with_parameters(**dict(map(_setting, chosen.settings)))
-            problems = check(mechanism)
+            mechanism = mechanism.with_parameters(
+                **dict(_setting(s, "--set", "a=3/2") for s in chosen.settings)
+            )
+            problems = check(mechanism, redundant)
             if problems:
                 raise MechanismError(problems)
     except MechanismError as error:
         raise UserError(complaint(error.problems)) from None
-    except (OSError, ImportError) as error:
+    except OSError as error:
         raise UserError(str(error)) from None
     return mechanism
 
 
-def _load(name: str) -> Mechanism:
-    if not name.lower().endswith(".urdf"):
-        return load(name)
-    from singsym.mechanism.urdf import from_urdf
-
-    if not Path(name).is_file():
-        raise FileNotFoundError(f"no file is called {name}")
-    return from_urdf(name)
+def choice_of(chosen: argparse.Namespace) -> Choice:
+    """What --base, --tip, --joints, --lock and --components choose; `UserError` for what cannot be read."""
+    locks = dict(_setting(text, "--lock", "elbow=0") for text in chosen.lock)
+    if missing := [name for name, value in locks.items() if value is None]:
+        raise UserError(f"found --lock {missing[0]}=; expected JOINT=VALUE, as --lock elbow=0")
+    return Choice(chosen.base, chosen.tip, _listed(chosen.joints), locks, _listed(chosen.components))
 
 
-def _setting(text: str) -> tuple[str, str | None]:
+def _listed(texts: list[str]) -> tuple[str, ...]:
+    """Names given with commas between them, or by the same option several times."""
+    return tuple(name.strip() for text in texts for name in text.split(",") if name.strip())
+
+
+def _setting(text: str, option: str, example: str) -> tuple[str, str | None]:
     name, equals, value = text.partition("=")
     if not equals or not name.strip():
-        raise UserError(f"found --set {text}; expected NAME=VALUE, as --set a=3/2")
+        raise UserError(f"found {option} {text}; expected NAME=VALUE, as {option} {example}")
     return name.strip(), value.strip() or None
 
 
@@ -91,8 +101,15 @@ def run_new(chosen: argparse.Namespace) -> int:
 
 
 def run_show(chosen: argparse.Namespace) -> int:
-    """`singsym show MECHANISM`."""
-    mechanism = read(chosen)
+    """`singsym show MECHANISM`; of a URDF file its chains and joints too, whether one is clear or not."""
+    robot = _robot_tree(chosen)
+    try:
+        mechanism = read(chosen, redundant=True)
+    except UserError as error:
+        asked = choice_of(chosen) != Choice() or chosen.settings or chosen.format not in ("text", "json")
+        if robot is None or asked:
+            raise
+        return _show_robot(robot, str(error), chosen.format)
     if chosen.format == "toml":
         from singsym.mechanism import dumps
 
@@ -102,7 +119,12 @@ def run_show(chosen: argparse.Namespace) -> int:
     if chosen.format == "json":
         from singsym.output.plain_data import mechanism_data
 
-        emit_data(mechanism_data(mechanism, equation))
+        found = mechanism_data(mechanism, equation)
+        if robot is not None:
+            from singsym.output.robot_page import robot_data
+
+            found |= {"robot": robot_data(robot)}
+        emit_data(found)
     elif chosen.format == "latex":
         from singsym.output.latex import document, mechanism_latex
 
@@ -111,7 +133,38 @@ def run_show(chosen: argparse.Namespace) -> int:
     else:
         from singsym.output.text import mechanism_page
 
-        emit_page(mechanism_page(mechanism, equation))
+        page = mechanism_page(mechanism, equation)
+        if robot is not None:
+            from singsym.output.robot_page import robot_page
+
+            page = (*robot_page(robot), *page)
+        emit_page(page)
+    return 0
+
+
+def _robot_tree(chosen: argparse.Namespace) -> Tree | None:
+    """What a URDF file holds; None for other mechanisms, and where the file cannot be read."""
+    from singsym.mechanism.fileformat import is_robot_file
+    from singsym.mechanism.library import names
+    from singsym.mechanism.urdf.chains import Tree
+    from singsym.mechanism.urdf.robot_file import read_robot
+
+    if chosen.mechanism in names() or not Path(chosen.mechanism).is_file():
+        return None
+    try:
+        return Tree(read_robot(chosen.mechanism)) if is_robot_file(chosen.mechanism) else None
+    except (MechanismError, OSError):
+        return None
+
+
+def _show_robot(robot: Tree, problem: str, form: str) -> int:
+    """A robot of which no mechanism was made, and why."""
+    from singsym.output.robot_page import robot_data, robot_page
+
+    if form == "json":
+        emit_data({"robot": robot_data(robot), "problem": problem})
+    else:
+        emit_page((*robot_page(robot), f"Not yet a mechanism to be analysed: {problem}"))
     return 0
 
 

@@ -8,12 +8,13 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable
 from importlib import import_module
+from typing import Any
 
 STORY = """\
 Finds and classifies every singularity of a mechanism, exactly.
 
 A mechanism is a name of the library (singsym list) or a file of one's own, TOML
-(singsym new writes a commented one) or URDF for arms.  Its singular configurations
+(singsym new writes a commented one) or a robot's URDF.  Its singular configurations
 are found from the velocity equation L m = 0, and divided into the 21 classes of
 Zlatanov, Fenton and Benhabib by the six types RI RO RPM II IO IIM; each class is
 proven empty, or shown by a certified configuration."""
@@ -23,6 +24,8 @@ examples:
   singsym classify zlatanov-2dof              which classes occur, where, how often
   singsym conditions stewart-gough            the factored singularity conditions
   singsym classify zlatanov-hybrid --set a=3/2 --workers 2
+  singsym show robot.urdf                     its chains, joints and limits
+  singsym conditions robot.urdf --tip tool0 --lock elbow=0
   singsym new mine && singsym check mine.toml && singsym classify mine.toml
 
 Results go to stdout, messages to stderr.  Exit code: 0 decided, 3 a class,
@@ -88,7 +91,9 @@ def parser() -> argparse.ArgumentParser:
     )
     add("report", "pictures", "one HTML page with everything about a mechanism", _mechanism, _work, _output)
     words = "a web page of each mechanism of the library, and an index"
-    add("gallery", "gallery", words, _work, _folder).set_defaults(settings=[], formulation="auto")
+    usual: dict[str, Any] = {"settings": [], "formulation": "auto", "base": None, "tip": None}
+    usual |= {"components": [], "lock": [], "joints": []}
+    add("gallery", "gallery", words, _work, _folder).set_defaults(**usual)
     add("engines", "tools", "which engines there are, and how to get the others", _install, short)
     add("completion", "tools", "a script that completes commands in a shell", _shell)
     return top
@@ -131,6 +136,36 @@ def _mechanism(command: argparse.ArgumentParser) -> None:
         default="auto",
         choices=("auto", "planar", "spherical", "joint", "natural", "quaternion"),
         help="the configuration variables (default: by kind of mechanism)",
+    )
+    _parts(command)
+
+
+def _parts(command: argparse.ArgumentParser) -> None:
+    """What is meant of a mechanism, where the file holds more."""
+    group = command.add_argument_group("parts of the mechanism")
+    group.add_argument("--base", metavar="LINK", help="where a URDF file's chain starts (default: its root)")
+    group.add_argument("--tip", metavar="LINK", help="where a URDF file's chain ends (default: its only end)")
+    group.add_argument(
+        "--components",
+        action="append",
+        default=[],
+        metavar="A,B,...",
+        help="of the output: vx,vy,vz,wx,wy,wz of a link's twist, or x,y,z of a point's velocity",
+    )
+    group.add_argument(
+        "--lock",
+        action="append",
+        default=[],
+        metavar="JOINT=VALUE",
+        help="hold an input joint, as elbow=0, elbow=pi/2 or elbow='30 deg'; bare numbers are radians, "
+        "lengths those of the file (repeatable)",
+    )
+    group.add_argument(
+        "--joints",
+        action="append",
+        default=[],
+        metavar="A,B,...",
+        help="those that move; hold all others at 0, or in a URDF file within limits that leave 0 out",
     )
 
 

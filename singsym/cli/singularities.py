@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 
 from singsym.cli.mechanisms import complaint, placed, read
 from singsym.cli.screen import UserError, emit_data, emit_page
-from singsym.mechanism import MechanismError
+from singsym.mechanism import Mechanism, MechanismError
+from singsym.mechanism.choices import is_redundant
 
 if TYPE_CHECKING:
     from singsym.classes.classify import Limits
@@ -23,7 +24,9 @@ def run_conditions(chosen: argparse.Namespace) -> int:
     """`singsym conditions MECHANISM`."""
     from singsym.conditions.conditions import conditions
 
-    mechanism = read(chosen)
+    mechanism = read(chosen, redundant=True)
+    if is_redundant(mechanism):
+        return _redundant_conditions(chosen, mechanism)
     found = conditions(placed(mechanism, chosen.formulation))
     if chosen.format == "json":
         from singsym.output.plain_data import conditions_data
@@ -38,6 +41,24 @@ def run_conditions(chosen: argparse.Namespace) -> int:
         from singsym.output.text import conditions_page
 
         emit_page((mechanism.name, *conditions_page(found)))
+    return 0
+
+
+def _redundant_conditions(chosen: argparse.Namespace, mechanism: Mechanism) -> int:
+    """Of a serial chain with more inputs than output components: where the rank of L_O drops."""
+    from singsym.conditions.redundant import redundant_chain
+    from singsym.output import redundant_page
+
+    found = redundant_chain(placed(mechanism, chosen.formulation))
+    if chosen.format == "json":
+        emit_data(redundant_page.redundant_data(mechanism.name, found))
+    elif chosen.format == "latex":
+        from singsym.output.latex import document
+
+        body = redundant_page.redundant_latex(mechanism, found)
+        print(document(body, mechanism.title or mechanism.name) if chosen.standalone else body)
+    else:
+        emit_page((mechanism.name, *redundant_page.redundant_page(found)))
     return 0
 
 

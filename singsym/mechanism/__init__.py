@@ -4,6 +4,7 @@ Source: singsym's own; see `singsym new` for the format.
 """
 
 from singsym.mechanism.checks import check
+from singsym.mechanism.choices import Choice
 from singsym.mechanism.fileformat import define, load, loads
 from singsym.mechanism.model import (
     Exclusion,
@@ -22,6 +23,7 @@ from singsym.mechanism.problems import MechanismError, Problem
 from singsym.mechanism.writer import dumps
 
 __all__ = [
+    "Choice",
     "Exclusion",
     "Joint",
     "JointKind",

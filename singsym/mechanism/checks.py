@@ -12,6 +12,7 @@ from difflib import get_close_matches
 import networkx
 import sympy
 
+from singsym.mechanism.choices import balance, is_redundant
 from singsym.mechanism.expressions import expression, is_angle
 from singsym.mechanism.model import (
     Joint,
@@ -38,8 +39,10 @@ _PINNED = (JointKind.R, JointKind.U, JointKind.S)
 Finding = tuple[str, str, str, str]
 
 
-def check(mechanism: Mechanism) -> tuple[Problem, ...]:
+def check(mechanism: Mechanism, redundant: bool = False) -> tuple[Problem, ...]:
     """Every problem that shows without kinematics; an empty tuple where there is none.
+
+    redundant: serial chains may have more inputs than output components, as `conditions` alone allows.
 
     >>> from singsym.mechanism import load
     >>> check(load("fourbar"))
@@ -48,7 +51,12 @@ def check(mechanism: Mechanism) -> tuple[Problem, ...]:
     found = [*_names(mechanism), *_joints(mechanism), *_parameters(mechanism)]
     if not found:
         # What follows looks names up and puts parameters in, so it needs those to be right.
-        found = [*_graph(mechanism), *_shared_points(mechanism), *_inputs(mechanism), *_outputs(mechanism)]
+        found = [
+            *_graph(mechanism),
+            *_shared_points(mechanism),
+            *_inputs(mechanism),
+            *_outputs(mechanism, redundant),
+        ]
         found += [*_dimensions(mechanism.resolved), *_exclusions(mechanism), *_translating(mechanism)]
         if not found:
             found = [*_axes(mechanism.resolved), *_loops(mechanism.resolved)]
@@ -303,17 +311,16 @@ def _translating(mechanism: Mechanism) -> Iterator[Finding]:
             yield "translating", repr(name), f"links among {_listed(moving)}", _suggest(name, moving)
 
 
-def _outputs(mechanism: Mechanism) -> Iterator[Finding]:
+def _outputs(mechanism: Mechanism, redundant: bool) -> Iterator[Finding]:
     if not mechanism.outputs:
         yield "output", "no output", f"{mechanism.n} components", 'write output = { velocity = "POINT" }'
         return
-    count = 0
     for output in mechanism.outputs:
         yield from _output(output, mechanism)
-        count += 1 if isinstance(output, JointRate) else len(output.components)
-    if mechanism.n and count != mechanism.n:
-        found = f"{count} output components"
-        yield "output", found, f"{mechanism.n}, as many as inputs", "choose components = [...]"
+    count = mechanism.output_size
+    if mechanism.n and count != mechanism.n and not (redundant and is_redundant(mechanism)):
+        found = f"{count} output component{'s' * (count != 1)}"
+        yield "output", found, f"{mechanism.n}, as many as inputs", balance(mechanism)
 
 
 def _output(output: Output, mechanism: Mechanism) -> Iterator[Finding]:

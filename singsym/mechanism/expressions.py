@@ -29,6 +29,7 @@ MAX_DEPTH = 30
 MAX_EXPONENT = 64
 MAX_BITS = 340
 """Numbers of 100 digits; their cubes are still floats."""
+LONG_NUMBER = "a number too long to use", f"at most {MAX_BITS} binary digits"
 FUNCTIONS = ("sqrt", "sin", "cos")
 RESERVED = (*FUNCTIONS, "angle", "length", "pi", "deg")
 
@@ -129,7 +130,7 @@ def oversize(value: sympy.Expr) -> tuple[str, str] | None:
         return "nesting too deep", f"at most {2 * MAX_DEPTH} levels"
     rationals = value.atoms(sympy.Rational)
     if any(max(abs(int(r.p)).bit_length(), int(r.q).bit_length()) > MAX_BITS for r in rationals):
-        return "a number too long to use", f"at most {MAX_BITS} binary digits"
+        return LONG_NUMBER
     if _degree(value) > MAX_EXPONENT:
         return f"a power of degree {_degree(value)}", f"at most {MAX_EXPONENT}"
     if value.count_ops() > MAX_LENGTH:

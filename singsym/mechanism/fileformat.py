@@ -12,8 +12,9 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
-from singsym.mechanism.checks import check
-from singsym.mechanism.expressions import DecimalText, Quantities
+from singsym.mechanism.checks import MAX_JOINTS, check
+from singsym.mechanism.choices import Choice
+from singsym.mechanism.expressions import LONG_NUMBER, DecimalText, Quantities
 from singsym.mechanism.joints import read_inputs, read_joints
 from singsym.mechanism.library import names as library_names
 from singsym.mechanism.library import text as library_text
@@ -31,13 +32,18 @@ KEYS = (
     "translating",
 )  # fmt: skip
 FORMULATIONS = ("auto", "planar", "spherical", "joint", "natural", "quaternion")
-_PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*\.[ \t]*"""
-_DEEP_KEY = re.compile(rf"(?:{_PART}){{50}}")
+# Without backtracking, and from the beginnings of words alone, so that long names take no time.
+_PART = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+"""
+_DEEP_KEY = re.compile(rf"(?<![\w-])(?:{_PART}){{50}}")
+_LINE = re.compile(r"at line (\d+)")
+_BARE = re.compile(r"[=\[,]\s*((?:[\d.]+\s*[-+*/^]|sqrt\s*\(|sin\s*\(|cos\s*\(|pi\b)[^\"'#,}\]\n]*)")
+"""What starts as an expression does after an equals sign, a bracket or a comma."""
 
 
-def load(name: str | Path) -> Mechanism:
-    """The checked mechanism of a file, or of a name in the library.
+def load(name: str | Path, choice: Choice | None = None) -> Mechanism:
+    """The checked mechanism of a file, TOML or URDF, or of a name in the library.
 
+    choice: the chain of a URDF file; joints that are held, components of the output.
     Raises `MechanismError` with every problem, `FileNotFoundError` where there is no such file or name.
 
     >>> hybrid = load("zlatanov-hybrid").with_parameters(a="3/2")
@@ -45,13 +51,39 @@ def load(name: str | Path) -> Mechanism:
     (3/2, 0, 0)
     """
     if str(name) in library_names():
-        return loads(library_text(str(name)), origin=f"{name}.toml")
+        return _chosen(library_text(str(name)), f"{name}.toml", choice)
     path = Path(name)
     if not path.is_file():
         close = get_close_matches(str(name), library_names(), 3)
         advice = f"did you mean {' or '.join(close)}?" if close else "singsym list shows the library"
         raise FileNotFoundError(f"no file and no mechanism of the library is called {name}; {advice}")
-    return loads(read_text(path), origin=str(name))
+    if is_robot_file(path):
+        from singsym.mechanism.urdf import from_urdf
+
+        return from_urdf(path, choice)
+    return _chosen(read_text(path), str(name), choice)
+
+
+def is_robot_file(path: str | Path) -> bool:
+    """Whether a file is XML, or named as files of robots are, and not a mechanism file in TOML."""
+    if Path(path).suffix.lower() in (".urdf", ".xacro", ".sdf", ".world", ".mjcf", ".xml"):
+        return True
+    with Path(path).open("rb") as stream:
+        return stream.read(100).lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<")
+
+
+def _chosen(text: str, origin: str, choice: Choice | None) -> Mechanism:
+    """The mechanism of a file with what is chosen of it; before that its output need not fit its inputs."""
+    if choice is None or choice == Choice():
+        return loads(text, origin)
+    mechanism, problems = read(tables(text, origin), origin)
+    problems = problems or tuple(p for p in check(mechanism) if p.place != "output")
+    if problems:
+        raise MechanismError(problems)
+    mechanism = choice.applied(mechanism)
+    if problems := check(mechanism, choice.redundant):
+        raise MechanismError(problems)
+    return mechanism
 
 
 def read_text(path: str | Path) -> str:
@@ -109,11 +141,22 @@ def tables(text: str, origin: str = "") -> dict[str, Any]:
         found = f"a name for the second time: {error}" if twice else f"no TOML: {error}"
         expected = "each name once in a table" if twice else "TOML"
         advice = "see `singsym new` for an example"
+        if bare := _bare_expression(text, str(error)):
+            advice = f"put expressions in quotes, as {bare}"
         raise MechanismError([Problem("file", found, expected, advice, origin)]) from None
     except (RecursionError, ValueError) as error:
         # int() refuses more than 4300 digits, and the parser recurses on nested lists.
-        found = "lists nested too deep" if isinstance(error, RecursionError) else f"no TOML: {error}"
-        raise MechanismError([Problem("file", found, "TOML", file=origin)]) from None
+        nested = isinstance(error, RecursionError)
+        found, expected = ("lists nested too deep", "TOML") if nested else LONG_NUMBER
+        raise MechanismError([Problem("file", found, expected, file=origin)]) from None
+
+
+def _bare_expression(text: str, error: str) -> str:
+    """An expression without quotes in the line of a TOML error, with quotes; empty where there is none."""
+    lines, place = text.split("\n"), _LINE.search(error)
+    line = lines[int(place[1]) - 1] if place is not None else lines[-1]
+    found = _BARE.search(line)
+    return "" if found is None else f'"{shorten(found[1].strip())}"'
 
 
 def define(**keys: Any) -> Mechanism:
@@ -163,8 +206,10 @@ def read(data: Mapping[str, Any], origin: str = "") -> tuple[Mechanism, tuple[Pr
     if "inputs" not in top and "dh" in top:
         inputs = tuple(column for joint in joints for column in joint.columns)
     mobility = top.get("mobility")
-    if mobility is not None and (isinstance(mobility, bool) or not isinstance(mobility, int) or mobility < 1):
-        reader.report("mobility", kind_of(mobility), "a whole number from 1")
+    if mobility is not None and (
+        isinstance(mobility, bool) or not isinstance(mobility, int) or not 0 < mobility <= 3 * MAX_JOINTS
+    ):
+        reader.report("mobility", kind_of(mobility), f"a whole number from 1 to {3 * MAX_JOINTS}")
         mobility = None
     known: Quantities = quantities(reader.space, links, joints)
     mechanism = Mechanism(

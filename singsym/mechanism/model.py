@@ -235,6 +235,11 @@ class Mechanism:
         return len(self.columns)
 
     @property
+    def output_size(self) -> int:
+        """The number of components of all outputs."""
+        return sum(1 if isinstance(o, JointRate) else len(o.components) for o in self.outputs)
+
+    @property
     def n(self) -> int:
         """The mobility."""
         return len(self.inputs) if self.mobility is None else self.mobility

@@ -8,6 +8,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+LONGEST_PLACE, LONGEST_PART = 120, 1000
+"""Characters of a place, and of what was found or expected, that are shown."""
+
 
 def shorten(found: object, limit: int = 60) -> str:
     """Text of what was found, cut in the middle where it is long.
@@ -35,8 +38,9 @@ class Problem:
     file: str = ""
 
     def __str__(self) -> str:
-        where = ": ".join(part for part in (self.file, self.place) if part)
-        said = f"{where}: found {self.found}; expected {self.expected}"
+        where = ": ".join(part for part in (self.file, shorten(self.place, LONGEST_PLACE)) if part)
+        found, expected = (shorten(part, LONGEST_PART) for part in (self.found, self.expected))
+        said = f"{where}: found {found}; expected {expected}"
         return _printable(said + (f"; {self.advice}" if self.advice else ""))
 
 

@@ -11,6 +11,7 @@ from difflib import get_close_matches
 from itertools import product
 from numbers import Number
 from typing import Any
+from unicodedata import category
 
 import sympy
 
@@ -20,6 +21,8 @@ from singsym.mechanism.problems import MechanismError, Problem, shorten
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 
+LONGEST_NAME = 60
+"""Letters in a name of a link, joint, point, axis or parameter."""
 NOT_ALGEBRAIC = "a number made of rationals, roots and sin, cos of rational multiples of pi"
 
 
@@ -37,6 +40,11 @@ def kind_of(value: Any) -> str:
     )
     kind = next((name for kind, name in kinds if isinstance(value, kind)), type(value).__name__)
     return f"the {kind} {shorten(value)!r}" if kind == "text" else f"the {kind} {shorten(value)}"
+
+
+def _is_text(character: str) -> bool:
+    """Whether a character is no control character: printable, a line's end, a tab, a space of any width."""
+    return character.isprintable() or character in "\n\r\t" or category(character) == "Zs"
 
 
 class Reader:
@@ -81,7 +89,7 @@ class Reader:
 
     def text(self, value: Any, place: str) -> str:
         """Printable text; anything else is a problem."""
-        if isinstance(value, str) and all(c.isprintable() or c in "\n\r\t" for c in value):
+        if isinstance(value, str) and all(map(_is_text, value)):
             return str(value)
         found = f"a control character in {shorten(value)!r}" if isinstance(value, str) else kind_of(value)
         self.report(place, found, "text in quotes")
@@ -90,7 +98,9 @@ class Reader:
     def name(self, value: Any, place: str) -> str:
         """A name of a link, joint, point, axis or parameter."""
         text = self.text(value, place)
-        if isinstance(value, str) and (not _NAME.fullmatch(text) or text in RESERVED or len(text) > 60):
+        if isinstance(value, str) and (
+            not _NAME.fullmatch(text) or text in RESERVED or len(text) > LONGEST_NAME
+        ):
             expected = "a name of letters, digits and _, starting with a letter, other than "
             self.report(place, f"the name {shorten(text)!r}", expected + ", ".join(RESERVED))
         return text

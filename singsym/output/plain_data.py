@@ -77,11 +77,12 @@ def conditions_data(name: str, conditions: Conditions) -> dict[str, Any]:
             "rows": list(reduced.rows),
             "L": _entries(reduced.L),
         },
-        "conditions": [_condition(c) for c in conditions],
+        "conditions": [condition_data(c) for c in conditions],
     }
 
 
-def _condition(condition: Condition) -> dict[str, Any]:
+def condition_data(condition: Condition) -> dict[str, Any]:
+    """A condition with its factors; alternatives null where it is left as a rank."""
     alternatives = condition.alternatives
     return {
         "label": condition.label,

@@ -9,6 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from singsym.effort.verdict import described
+from singsym.mechanism.choices import is_redundant
 from singsym.output.page import Block, Grid, Page
 from singsym.output.pieces import Group, extent_of, filled, grouped, known_by, loop_equations, moving, varying
 
@@ -54,6 +55,7 @@ def mechanism_page(mechanism: Mechanism, equation: VelocityEquation) -> Page:
         f"{mechanism.space} mechanism, N = {equation.N}, n = {equation.n}",
         f"Inputs: {inputs}",
         f"Output: {outputs}",
+        *(["Redundant: RI in every configuration"] if is_redundant(mechanism) else []),
         *(f"Parameter: {_parameter_text(p)}" for p in mechanism.parameters),
         *(f"Left out: {e.words or ' = '.join(e.points) or e.expression}" for e in mechanism.exclusions),
     ]

@@ -161,7 +161,7 @@ def test_parameter_that_is_missing_or_symbolic() -> None:
         ("inputs = [", "no TOML"),
         ("a = " + "[" * 5_000_000 + "]" * 5_000_000, "at most 1000000"),
         ("a = " + "[" * 400_000, "nested too deep"),
-        ("a = " + "9" * 5000, "TOML"),
+        ("a = " + "9" * 5000, "a number too long"),
         ("x = nan", "keys among"),
         ("inputs = 3\nspace = 4\nmobility = true", "space"),
         (FOURBAR.replace("AB = 1", "AB = nan"), "links.AB.length"),
@@ -235,3 +235,47 @@ def test_roots_of_roots_are_written_as_they_are_read() -> None:
 def test_numbers_too_long_for_floats_are_refused() -> None:
     with pytest.raises(MechanismError, match=r"D\[1\]: found a number too long to use"):
         load(CASES / "huge-integer.toml")
+
+
+def test_whole_numbers_have_the_size_limit_of_expressions() -> None:
+    """400 digits are more than 340 binary ones, 5000 more than Python reads; no mobility is larger than N."""
+    digits = "1" * 400
+    for text, words in (
+        (FOURBAR.replace("AB = 1", f"AB = {digits}"), "links.AB.length: found a number too long to use"),
+        (FOURBAR.replace("AB = 1", "AB = " + digits * 20), "found a number too long to use"),
+        (f"mobility = {digits}\n{FOURBAR}", "expected a whole number from 1 to 1500"),
+        (f'{FOURBAR}[limits]\n"cos(A)" = [-{digits}, 1]\n', "found a number too long to use"),
+    ):
+        with pytest.raises(MechanismError, match=words) as caught:
+            loads(text)
+        assert len(str(caught.value)) < 1500
+
+
+def test_spaces_of_any_width_are_text_and_can_be_written_again() -> None:
+    named = loads(f'title = "a\u00a0b\u2009c"\n{FOURBAR}')
+    assert named.title == "a\u00a0b\u2009c"
+    assert loads(dumps(named)) == named
+    with pytest.raises(MechanismError, match="control character"):
+        loads(f'title = "a\u202eb"\n{FOURBAR}')
+
+
+@pytest.mark.parametrize("key", ["{0}", '"{0}"', "{0}.{0}", "x.'{0}'.y"])
+def test_long_names_are_looked_at_once(key: str) -> None:
+    """What finds keys of many parts takes steps in proportion to the text: it ends, for 60 000 letters."""
+    with pytest.raises(MechanismError) as caught:
+        loads(f"{key.format('a' * 60000)} = 1\n{FOURBAR}")
+    assert len(str(caught.value)) < 3000
+    assert len(loads(f'title = "{"a" * 60000}"\n{FOURBAR}').title) == 60000
+
+
+def test_keys_of_many_parts_are_refused() -> None:
+    for key in ("a." * 50 + "a", "'a.b' . " * 60 + "a", '"a" .' * 50 + "b"):
+        with pytest.raises(MechanismError, match="keys of fewer than 50 parts"):
+            loads(f"{key} = 1\n{FOURBAR}")
+
+
+@pytest.mark.parametrize("bare", ["7/2", "sqrt(2)", "2*pi", "cos(40 deg)"])
+def test_an_expression_without_quotes_gets_a_hint(bare: str) -> None:
+    with pytest.raises(MechanismError) as caught:
+        loads(FOURBAR.replace("AB = 1", f"AB = {bare}  # that long"))
+    assert f'put expressions in quotes, as "{bare}"' in str(caught.value)

@@ -12,6 +12,7 @@ from singsym.classes.realisation.dimension_bounds import (
     off_borders,
     points_off_exclusions,
 )
+from singsym.effort.budget import Undecided
 from singsym.effort.verdict import Known, Verdict
 from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.polynomials import Ring
@@ -39,7 +40,11 @@ def test_a_dimension_is_no_bound_below_itself_though_nothing_was_seen(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Where hyperplanes give no answer in time, the complex dimension 2 is a bound of 2, and not of 1."""
-    monkeypatch.setattr(dimension_bounds, "seems_at_most", lambda *given: Verdict.undecided("no time"))
+
+    def late(*given: object) -> Verdict:
+        raise Undecided("no time")
+
+    monkeypatch.setattr(dimension_bounds, "seems_at_most", late)
     system = RealSystem(R, PLANE_AND_LINE)
     assert bound_above(system, 1) is None
     assert bound_above(system, 2) == Known(2)

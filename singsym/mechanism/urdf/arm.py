@@ -1,0 +1,150 @@
+"""A robot's chain as a serial mechanism, its links in the frames of the file.
+
+Source: the URDF specification (https://wiki.ros.org/urdf/XML): a joint's frame is that of its child at zero.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import sympy
+
+from singsym.mechanism.arcs import decimal_arc
+from singsym.mechanism.expressions import RESERVED
+from singsym.mechanism.model import Joint, JointKind, Limit, Link, Mechanism, Space, Vector
+from singsym.mechanism.reader import LONGEST_NAME
+from singsym.mechanism.urdf.chains import Chain
+from singsym.mechanism.urdf.numbers import Reading, across
+from singsym.mechanism.urdf.robot_file import Robot, RobotJoint
+
+TOOL = "tool"
+"""The point of the last link at the origin of the tip's frame."""
+
+
+@dataclass
+class _Body:
+    """Rigidly joined URDF links: one link of the mechanism, being filled."""
+
+    name: str
+    points: dict[str, Vector] = field(default_factory=dict)
+    axes: dict[str, Vector] = field(default_factory=dict)
+
+
+def arm(robot: Robot, chain: Chain, held: Collection[str]) -> tuple[Mechanism, Mapping[str, str]]:
+    """The mechanism of a chain, without outputs, and its joints' names by those of the file.
+
+    held: the joints that will be locked, which are moving ones here.
+    Raises `MechanismError` for what the chain has that no serial mechanism has.
+    """
+    built = _Arm(robot)
+    built.bodies.append(_Body(built.name(chain.base)))
+    for joint in chain.joints:
+        built.add(joint, held)
+    last = built.bodies[-1]
+    last.points[TOOL] = _tuple(built.shift)
+    limits = (f"Limits of {', '.join(names)}: {words}." for words, names in built.said.items())
+    notes = (str(chain), *built.reading.notes, *limits, *built.notes)
+    mechanism = Mechanism(
+        name=robot.name,
+        space=Space.SPATIAL,
+        ground=built.bodies[0].name,
+        links=tuple(Link(b.name, b.points, b.axes) for b in built.bodies),
+        joints=tuple(built.joints),
+        inputs=tuple(joint.name for joint in built.joints),
+        outputs=(),
+        limits=tuple(built.limits),
+        description="\n".join(notes),
+        source=f"URDF file {Path(robot.file).name}",
+        origin=robot.file,
+    )
+    return mechanism, built.names
+
+
+class _Arm:
+    """Builds links and joints along a chain; `turn`, `shift`: pose of the URDF link in its body's frame."""
+
+    def __init__(self, robot: Robot) -> None:
+        self.robot = robot
+        self.reading = Reading()
+        self.notes: list[str] = []
+        self.said: dict[str, list[str]] = {}
+        self.bodies: list[_Body] = []
+        self.joints: list[Joint] = []
+        self.limits: list[Limit] = []
+        self.names: dict[str, str] = {}
+        self.turn, self.shift = sympy.eye(3), sympy.zeros(3, 1)
+        self.taken: set[str] = set()
+
+    def name(self, text: str) -> str:
+        """A name in the file format's alphabet, not yet taken."""
+        clean = re.sub(r"[^A-Za-z0-9_]", "_", text)[: LONGEST_NAME - 10] or "_"
+        clean = f"_{clean}" if not (clean[0].isalpha() or clean[0] == "_") or clean in RESERVED else clean
+        while clean in self.taken:
+            clean += "_"
+        self.taken.add(clean)
+        return clean
+
+    def add(self, joint: RobotJoint, held: Collection[str]) -> None:
+        """Append one URDF joint: a fixed one moves the pose on, another starts a new body."""
+        here = sympy.Matrix([self.reading.length(x) for x in joint.xyz])
+        self.shift = (self.shift + self.turn * here).applyfunc(sympy.expand)
+        self.turn = (self.turn * self.reading.rotation(joint.rpy, joint.name)).applyfunc(sympy.expand)
+        if joint.kind == "fixed":
+            return
+        if joint.mimic is not None and joint.name not in held:
+            leader = joint.mimic.joint
+            self.notes.append(f"Joint {joint.name} follows {leader}, which is not in the chain: an input.")
+        name, old = self.name(joint.name), self.bodies[-1]
+        self.names[joint.name] = name
+        axis = self.reading.axis(joint.axis, joint.name)
+        new = _Body(self.name(joint.child))
+        turning = joint.kind != "prismatic"
+        # The model keeps a slide's two frames parallel; a turning body gets the URDF frame of its child.
+        frame = sympy.eye(3) if turning else self.turn
+        at = (f"o_{name}", f"o_{name}" if turning else f"s_{name}")
+        old.points[at[0]], new.points[at[1]] = _tuple(self.shift), _tuple(sympy.zeros(3, 1))
+        old.axes[f"z_{name}"], new.axes[f"z_{name}"] = _tuple(self.turn * axis), _tuple(frame * axis)
+        reference = None
+        if turning and self.turn != sympy.eye(3):
+            aside = across(axis)
+            old.axes[f"x_{name}"], new.axes[f"x_{name}"] = _tuple(self.turn * aside), _tuple(aside)
+            reference = (f"x_{name}", f"x_{name}")
+        pair = (f"z_{name}", f"z_{name}")
+        kind = JointKind.R if turning else JointKind.P
+        self.joints.append(Joint(name, kind, old.name, new.name, at, pair, reference=reference))
+        self.bodies.append(new)
+        self.turn, self.shift = frame, sympy.zeros(3, 1)
+        if joint.lower is not None and joint.upper is not None:
+            self.limit(name, turning, joint.lower, joint.upper)
+
+    def limit(self, name: str, turning: bool, low: float, high: float) -> None:
+        """A length's range as spelled; an angle's in cosine and sine, with ends rounded outwards."""
+        if low == high:
+            self.said.setdefault(f"left out, as both are {low:g}", []).append(name)
+            return
+        if not low < high:
+            raise self.robot.fault(
+                f"joint {name}", f"the limits {low:g} and {high:g}", "the lower limit first"
+            )
+        if not turning:
+            ends = (self.reading.length(end) if math.isfinite(end) else None for end in (low, high))
+            bounds = Limit(sympy.Symbol(f"length({name})"), *ends)
+            if bounds.low is not None or bounds.high is not None:
+                self.limits.append(bounds)
+        elif math.isfinite(low) and math.isfinite(high):
+            arc, words = decimal_arc(name, low, high)
+            if arc is not None:
+                self.limits.append(arc)
+            for part in words.split(", ") if words else ():
+                what = "rounded outwards by at most 1e-6" if " is rounded" in part else part
+                if name not in (names := self.said.setdefault(what, [])):
+                    names.append(name)
+
+
+def _tuple(vector: Sequence[Any]) -> Vector:
+    return tuple(sympy.expand(v) for v in vector)
