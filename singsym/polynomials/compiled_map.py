@@ -1,7 +1,7 @@
 """Polynomial maps compiled to arrays: values and Jacobian matrices in doubles, at one point or at many.
 
-Source: straight-line programs for the monomials (each the product of an earlier one and a variable), sums by
-sparse matrices; Golub, Van Loan, Matrix Computations (2013), section 11.1.2.
+Source: straight-line programs, Bürgisser, Clausen, Shokrollahi, Algebraic Complexity Theory (1997), 4.1: each
+monomial is the product of an earlier one and a variable.
 """
 
 from __future__ import annotations
