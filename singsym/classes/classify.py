@@ -60,8 +60,8 @@ class Limits:
     """What a classification may use, None without limit.
 
     seconds, memory_mb: of work (see `processor_time`) and memory for each task (a branch, a stratum, a
-    curve); total: seconds of time after which no task is begun any more: half of it for the search for
-    strata, and the most of the rest for what is real of them.
+    curve); total: seconds of time after which every task ends: half of it for the search for strata, and
+    the most of the rest for what is real of them.
     """
 
     seconds: float | None = 60.0

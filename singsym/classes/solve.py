@@ -20,7 +20,7 @@ from singsym.classes.running.runner import Runner
 from singsym.classes.taxonomy.types import SingularityType
 from singsym.classes.unit_border import Border
 from singsym.conditions.conditions import Condition, Conditions, conditions
-from singsym.effort.budget import Budget, Undecided
+from singsym.effort.budget import Undecided, current
 from singsym.effort.verdict import Certainty, Known, Premises, Verdict, weakest
 from singsym.elimination.ideal import Ideal
 from singsym.kinematics.velocity import VelocityEquation
@@ -278,7 +278,7 @@ def solve_locus(task: LocusTask) -> Solved:
     """Decompose a closed part and find real points on each component: the task that workers run."""
     feasible = task.feasible
     try:
-        with Budget(work=task.seconds, memory_mb=task.memory_mb):
+        with current().part(task.seconds, task.memory_mb):
             premises, equations = Premises(), (*task.path, *task.equations)
             components = premises.take(decompose(equations, feasible.nonzero, ring=feasible.ring))
             kept = [c for c in components if not premises.take(is_excluded(c, feasible))]

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import combinations
 
-from singsym.effort.budget import Budget, Undecided
+from singsym.effort.budget import Undecided, current
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Equations
 from singsym.varieties.real.curves.equations import NotACurve
@@ -58,7 +58,7 @@ def count(task: CurveTask) -> Counted:
     are left in, but not where they are components by themselves.
     They are not counted where the complex zeros are no curve, as of x^2 + y^2 = 0 in space.
     """
-    budget = Budget(work=task.seconds, memory_mb=task.memory_mb)
+    budget = current().part(task.seconds, task.memory_mb)
     try:
         with budget:
             numbers = [_components(task.images[0], task.exclusions[0])]

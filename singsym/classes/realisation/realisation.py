@@ -28,7 +28,7 @@ from singsym.classes.strata.patches import Patch, unsplit
 from singsym.classes.strata.reflections import IDENTITY, image
 from singsym.effort import patience
 from singsym.effort.attempts import attempt
-from singsym.effort.budget import Budget, Undecided
+from singsym.effort.budget import Undecided, current
 from singsym.effort.verdict import Known, Premises, Verdict, weakest
 from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.kinematics.placement import JointValue
@@ -106,7 +106,7 @@ def realise(task: RealTask) -> Realised:
     system = replace(task.feasible, equations=stratum.equations, exclusions=exclusions)
     points: CertifiedPoints = ()
     try:
-        with Budget(work=task.seconds, memory_mb=task.memory_mb):
+        with current().part(task.seconds, task.memory_mb):
             if task.known is None:
                 piece, points = _realised(piece, system, task)
             else:

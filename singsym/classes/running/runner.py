@@ -32,8 +32,10 @@ Place = tuple[int, ...]
 """Which task: its number among the first ones, or among those that follow from the task at `place[:-1]`."""
 
 
-def _with_settings(allowed: tuple[str, ...], seed: int, function: Callable[[T], R], task: T) -> R:
-    with engines.use(*allowed), chance.use_seed(seed):
+def _with_settings(
+    allowed: tuple[str, ...], seed: int, budget: Budget, function: Callable[[T], R], task: T
+) -> R:
+    with engines.use(*allowed), chance.use_seed(seed), budget:
         return function(task)
 
 
@@ -73,7 +75,7 @@ class Runner:
         """
         grown: dict[Place, T] = {}
         results: dict[Place, R] = {}
-        work: _Queue[T, R] = _Queue(function, self.executor)
+        work: _Queue[T, R] = _Queue(function, self.executor, budget)
         new: list[tuple[Place, T]] = [((i,), task) for i, task in enumerate(tasks)]
         try:
             while True:
@@ -122,9 +124,10 @@ class _Job(Generic[T, R]):
 class _Queue(Generic[T, R]):
     """Tasks that wait or are at work, and the results of those that have ended."""
 
-    def __init__(self, function: Callable[[T], R], executor: Executor | None) -> None:
+    def __init__(self, function: Callable[[T], R], executor: Executor | None, budget: Budget) -> None:
         self.function = function
         self.executor = executor
+        self.budget = budget
         self.allowed = engines.allowed()
         self.seed = chance.seed()
         self.waiting: deque[_Job[T, R]] = deque()
@@ -141,7 +144,8 @@ class _Queue(Generic[T, R]):
 
     def _submitted(self, executor: Executor, task: T) -> Future[R]:
         try:
-            return executor.submit(_with_settings, self.allowed, self.seed, self.function, task)
+            left = self.budget.part()
+            return executor.submit(_with_settings, self.allowed, self.seed, left, self.function, task)
         except BrokenExecutor as error:
             broken: Future[R] = Future()
             broken.set_exception(error)
@@ -151,7 +155,8 @@ class _Queue(Generic[T, R]):
         """At least one result, as soon as there is one; without an executor, that of the next task."""
         if self.executor is None:
             job = self.waiting.popleft()
-            return [(job, self._result(job, lambda: self.function(job.task)))]
+            with self.budget.part():
+                return [(job, self._result(job, lambda: self.function(job.task)))]
         done, _ = wait(self.running, return_when=FIRST_COMPLETED)
         return [(job := self.running.pop(future), self._result(job, future.result)) for future in done]
 

@@ -22,7 +22,7 @@ from singsym.classes.strata.ranks import DefectBounds, RankProblem, Stratum, ran
 from singsym.classes.strata.reflections import IDENTITY, Reflection, compose, image, keeps, representatives
 from singsym.classes.taxonomy.types import SingularityType
 from singsym.effort import patience
-from singsym.effort.budget import Budget, Undecided
+from singsym.effort.budget import Undecided, current
 from singsym.effort.verdict import Certainty, Premises, Verdict
 from singsym.elimination import engines
 from singsym.elimination.ideal import Ideal
@@ -137,7 +137,7 @@ def explore(branch: Branch) -> Explored:
     """
     work = _Exploring(branch)
     try:
-        with Budget(work=branch.seconds, memory_mb=branch.memory_mb):
+        with current().part(branch.seconds, branch.memory_mb):
             if (known := _point_by_point(branch)) is not None:
                 return known
             work.explore()
