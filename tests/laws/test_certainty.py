@@ -11,7 +11,7 @@ from singsym.classes.realisation.certified_configuration import Names
 from singsym.classes.solve import LocusTask, solve_locus
 from singsym.classes.strata.occurrence import samples_of
 from singsym.effort.verdict import Certainty, Known
-from singsym.elimination import basis, engines
+from singsym.elimination import engines
 from singsym.elimination.ideal import Ideal, intersection
 from singsym.elimination.memo import forget
 from singsym.polynomials import Ring
@@ -91,7 +91,7 @@ QUESTIONS: dict[str, Callable[[], Certainty]] = {
 def known(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Iterator[Certainty]:
     """How all Groebner bases are known that an engine computes."""
     ask = engines.ask
-    monkeypatch.setattr(basis.engines, "ask", lambda *task: replace(ask(*task), certainty=request.param))
+    monkeypatch.setattr(engines, "ask", lambda *task: replace(ask(*task), certainty=request.param))
     forget()
     with engines.use("flint"):
         yield request.param
