@@ -280,16 +280,16 @@ class _Work:
             realised[i] = merged(realised[i], part)
 
     def _singular_loci(self) -> SingularLoci | None:
-        """The alternatives of (4), (5), (iii) and (vi), where they are known and not everything."""
+        """The alternatives of (4), (5), (iii) and (vi), where they are known."""
         found = [self._alternatives(label) for label in ("4", "5", "iii", "vi")]
         inputs, outputs, passive, mobility = found
         return None if inputs is None or outputs is None else SingularLoci(inputs, outputs, passive, mobility)
 
     def _alternatives(self, label: str) -> Loci | None:
         condition = self.conditions[label]
-        if condition.alternatives is None or condition.everywhere:
-            return None
-        return condition.polynomials
+        if condition.everywhere:
+            return ((),)
+        return None if condition.alternatives is None else condition.polynomials
 
     # -- loci ----------------------------------------------------------------------------------------
 

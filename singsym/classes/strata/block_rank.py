@@ -75,7 +75,8 @@ def numerical_minor(block: PolynomialMatrix, samples: Points) -> Places:
     return best
 
 
-def _bordered(shape: tuple[int, int], rows: Sequence[int], columns: Sequence[int]) -> Iterator[Places]:
+def bordered(shape: tuple[int, int], rows: Sequence[int], columns: Sequence[int]) -> Iterator[Places]:
+    """The minors with one row and one column more."""
     for i in range(shape[0]):
         if i in rows:
             continue
@@ -112,7 +113,7 @@ def block_rank(
     last = expanded(block.select(rows, columns)) if rows else None
     while not largest:
         candidates = []
-        for r, c in _bordered(block.shape, rows, columns):
+        for r, c in bordered(block.shape, rows, columns):
             minor = expanded(block.select(r, c))
             if minor and not premises.take(ground.vanishes(minor, certifier)):
                 candidates.append((_weight(minor), r, c, minor))
@@ -134,7 +135,7 @@ def _is_rank(block: PolynomialMatrix, ground: Ground, certifier: Certifier, plac
     """Whether all minors that border one are seen to vanish on the ground."""
     premises = Premises()
     try:
-        borders = (expanded(block.select(*border)) for border in _bordered(block.shape, *places))
+        borders = (expanded(block.select(*border)) for border in bordered(block.shape, *places))
         known = (premises.take(ground.vanishes(minor, certifier)) for minor in borders if minor)
         return premises.conclude(all(known))
     except NotEvident:

@@ -8,16 +8,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from singsym.classes.strata.block_rank import bordered
 from singsym.classes.strata.ranks import RankProblem
 from singsym.classes.taxonomy.types import Defects
 from singsym.effort import patience
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Undecided
 from singsym.effort.verdict import Known
+from singsym.minors.determinant import determinant
 from singsym.polynomials import PolynomialMatrix
 from singsym.varieties.real.modules.module_points import comes_apart, module_points
 from singsym.varieties.real.points.boxed_point import BoxPoint
-from singsym.varieties.real.points.intervals import at_precision, evaluate, rank_at_least
+from singsym.varieties.real.points.intervals import at_precision, evaluate, pivots, rank_at_least
 from singsym.varieties.real.system import RealSystem
 
 _BITS = (64, 256, 1024)
@@ -51,28 +53,39 @@ def defects_of_points(
 
 
 def _defects(problem: RankProblem, point: BoxPoint, defect_bounds: Mapping[str, int]) -> Defects:
-    """Those at one point; raises `Undecided` where a rank is not seen to be as large as it may be.
+    """Those at one point; raises `Undecided` where a rank is not seen.
 
     Lemma: k_I and k_O are not less than p and delta (Table 1), which are 0 where one of them is.
     """
 
     def defect(name: str) -> int:
-        known = defect_bounds.get(name, 0)
-        if not _has_rank(problem.matrices[name], problem.full(name) - known, point):
-            raise Undecided(f"the rank of {name} at a point is not seen")
-        return known
+        most = problem.full(name) - defect_bounds.get(name, 0)
+        return problem.full(name) - _rank(problem.matrices[name], most, point)
 
     k_I, k_O = defect("L_I"), defect("L_O")
     both = k_I > 0 and k_O > 0
     return Defects(defect("L") if both else 0, defect("L_p") if both else 0, k_I, k_O)
 
 
-def _has_rank(matrix: PolynomialMatrix, rank: int, point: BoxPoint) -> bool:
-    """Whether a matrix is proven to have at least this rank at a point."""
+def _rank(matrix: PolynomialMatrix, most: int, point: BoxPoint) -> int:
+    """The rank of a matrix at a point, where it is known to be this at most; raises `Undecided`.
 
-    def seen(bits: int) -> bool:
-        box = point.refine(bits).box
-        with at_precision(bits + 64):
-            return rank_at_least([[evaluate(e, box) for e in row] for row in matrix.rows], rank)
+    Lemma (Kronecker): it is r where an r-minor is not zero, and all (r+1)-minors that border it are.
+    """
+    if any(_has_rank(matrix, most, point, bits) for bits in _BITS):
+        return most
+    rows, columns = pivots([[float(e) for e in row] for row in matrix.evaluate(point.floats)])
+    for r, c in bordered(matrix.shape, rows, columns):
+        minor = determinant(matrix.select(r, c))
+        if minor and not any(point.is_known_zero(factor) for factor, _ in minor.factors()):
+            raise Undecided("whether a minor is zero at a point is not seen")
+    if not _has_rank(matrix, len(rows), point, _BITS[-1]):
+        raise Undecided("whether a minor is not zero at a point is not seen")
+    return len(rows)
 
-    return any(map(seen, _BITS))
+
+def _has_rank(matrix: PolynomialMatrix, rank: int, point: BoxPoint, bits: int) -> bool:
+    """Whether a matrix is proven to have at least this rank in a box of so many bits around a point."""
+    box = point.refine(bits).box
+    with at_precision(bits + 64):
+        return rank_at_least([[evaluate(e, box) for e in row] for row in matrix.rows], rank)

@@ -63,6 +63,7 @@ Loci = tuple[Equations, ...]
 class SingularLoci:
     """Where the four matrices lose rank, by the alternatives of conditions (4), (5), (iii) and (vi).
 
+    Everywhere is one locus without an equation.
     passive, mobility: None where the condition is left as a comparison of ranks.
     """
 
@@ -72,9 +73,28 @@ class SingularLoci:
     mobility: Loci | None = None
 
     def defects_on(self, locus: Equations) -> dict[str, int]:
-        """How far at least the matrices are below full rank on one of the loci."""
-        loci = {"L_I": self.inputs, "L_O": self.outputs, "L_p": self.passive, "L": self.mobility}
-        return {name: 1 for name, own in loci.items() if own is not None and locus in own}
+        """How far at least the matrices are below full rank on one of the loci.
+
+        Lemma: k_I, k_O >= max(p, delta) (Table 1).
+        """
+        loci = {"L_p": self.passive, "L": self.mobility, "L_I": self.inputs, "L_O": self.outputs}
+        found = {name: 1 for name, own in loci.items() if own is not None and {locus, ()} & set(own)}
+        return found | (dict.fromkeys(("L_I", "L_O"), 1) if {"L_p", "L"} & set(found) else {})
+
+    @property
+    def searched(self) -> tuple[str, Loci]:
+        """The loci outside of which all classes are known without a search, and a matrix to look at first.
+
+        Those of (iii) and (vi), where they are known; else those of (4) or (5), whichever are shorter.
+        """
+        sides = [
+            (name, loci) for name, loci in (("L_O", self.outputs), ("L_I", self.inputs)) if () not in loci
+        ]
+        sides = sides or [("L_O", self.outputs)]
+        matrix, loci = min(sides, key=lambda side: sum(len(p) for locus in side[1] for p in locus))
+        if self.passive is not None and self.mobility is not None:
+            loci = tuple(dict.fromkeys((*self.passive, *self.mobility)))
+        return matrix, loci
 
 
 def search(
@@ -138,10 +158,7 @@ def _started(root: Branch, singular: SingularLoci) -> tuple[list[Found], list[Br
     """The strata that need no search, and the branches where the others are."""
     found = list(_strata_without_search(root, singular))
     complete_types = tuple(dict.fromkeys((*(part.stratum.defects.types for part in found), *_SIMPLE)))
-    matrix, loci = min(
-        (("L_O", singular.outputs), ("L_I", singular.inputs)),
-        key=lambda side: sum(len(p) for locus in side[1] for p in locus),
-    )
+    matrix, loci = singular.searched
     ready = replace(root, first_matrix=matrix, complete_types=complete_types)
     return found, [
         ready.within(locus, loci[:i], root.equations, singular.defects_on(locus))
@@ -156,12 +173,14 @@ def _strata_without_search(root: Branch, singular: SingularLoci) -> Iterator[Fou
     Where both (4) and (5) hold, but neither (iii) nor (vi), it is (RI, RO, IO, II).
     """
     inputs, outputs = singular.inputs, singular.outputs
-    regular = Stratum(root.equations, Defects(0, 0, 0, 0), (*inputs, *outputs))
-    yield Found((), regular)
+    if () not in (*inputs, *outputs):
+        yield Found((), Stratum(root.equations, Defects(0, 0, 0, 0), (*inputs, *outputs)))
     for own, other, defects in (
         (inputs, outputs, Defects(0, 0, 1, 0)),
         (outputs, inputs, Defects(0, 0, 0, 1)),
     ):
+        if () in other:
+            continue
         paths = [path for path in own if path not in other]
         for i, path in enumerate(paths):
             equations = (*root.equations, *path)

@@ -40,6 +40,27 @@ class Dyad:
     pivot: Polynomial | None
 
     @property
+    def line_equation(self) -> Polynomial:
+        """The line as a polynomial."""
+        return _joined(self.line, next(iter(self.conic.values())).ring, self.unknowns)
+
+    def touching(self, known: Balls) -> dict[str, arb]:
+        """The point where the line touches the conic, over parents at which the discriminant is zero.
+
+        Both the line and the tangency are linear.  Raises `Undecided` where the balls do not solve them.
+        """
+        x, y = self.unknowns
+        rows = [_terms(p, x, y) for p in (self.line_equation, self.tangency)]
+        zero = next(iter(self.conic.values())).ring.zero
+        (a, b, c), (d, e, f) = (
+            [_value(row.get(m, zero), known) for m in ((1, 0), (0, 1), (0, 0))] for row in rows
+        )
+        scale = a * e - b * d
+        if scale.contains(0):
+            raise Undecided("whether a dyad turns freely is not seen")
+        return {x: (b * f - c * e) / scale, y: (c * d - a * f) / scale}
+
+    @property
     def tangency(self) -> Polynomial:
         """Zero where the line touches the conic: the functional determinant of both."""
         ring, (x, y) = next(iter(self.conic.values())).ring, self.unknowns

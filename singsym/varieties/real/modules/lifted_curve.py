@@ -6,15 +6,16 @@ sheets where the dyad's discriminant is positive, none where it is negative, joi
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from math import sqrt
+from itertools import combinations
 
 import numpy as np
 from flint import arb
 
 from singsym.effort.budget import Budget, Undecided
+from singsym.effort.verdict import Known
 from singsym.polynomials import Equations, Polynomial, Ring
 from singsym.polynomials.block_form import Module, block_form
 from singsym.varieties.real.curves.arithmetic import System
@@ -26,19 +27,24 @@ from singsym.varieties.real.curves.tubes import location
 from singsym.varieties.real.curves.zeros import zeros_on
 from singsym.varieties.real.modules.assemblies import Dyad, assemblies, dyad
 from singsym.varieties.real.points.boxed_point import BoxPoint, boxed_point
-from singsym.varieties.real.points.intervals import at_precision, evaluate, exact_bounds
+from singsym.varieties.real.points.intervals import at_precision, ball, evaluate, exact_bounds
 
 _BITS = 256
+
+
+Solver = Callable[[Equations], Known[tuple[BoxPoint, ...]]]
+"""Finds all real points of a square system."""
 
 
 @dataclass(frozen=True)
 class Tower:
     """A circle and the dyads over it, in the order in which they are solved.
 
-    numbers: the relations of the fixed numbers; circle: the equation of the base in two variables.
+    foundation: modules that do not depend on the circle, among them the relations of fixed numbers; the
+    circle's centre and radius may be theirs.  base: the two variables of the circle.
     """
 
-    numbers: Equations
+    foundation: tuple[Module, ...]
     circle: Polynomial
     base: tuple[str, str]
     dyads: tuple[Module, ...]
@@ -46,36 +52,50 @@ class Tower:
 
 @dataclass(frozen=True, eq=False)
 class LiftedCurve:
-    """All of a curve, as loops that are proven: its connected components, each once."""
+    """All of a curve, as loops that are proven: its connected components, each once.
+
+    zeros: polynomials that vanish on it besides the system's.
+    """
 
     system: System
     loops: tuple[Chain, ...]
+    zeros: Equations = ()
+
+    def where(self, polynomial: Polynomial, budget: Budget) -> Iterator[BoxPoint]:
+        """The points where a polynomial is zero."""
+        for loop in self.loops:
+            for point in zeros_on(self.system, loop, polynomial, budget).zeros:
+                yield replace(point, zeros=self.zeros)
 
 
-def tower(equations: Sequence[Polynomial]) -> Tower | None:
-    """Equations of a curve as a circle with dyads over it; `None` where they are not.
+def towers(equations: Sequence[Polynomial]) -> Iterator[Tower]:
+    """Each way to see equations of a curve as a circle with dyads over it.
 
-    >>> from singsym.polynomials import Ring
-    >>> c, s, x, y = Ring(("c", "s", "x", "y")).gens
-    >>> found = tower((c**2 + s**2 - 1, (x - c) ** 2 + (y - s) ** 2 - 9, (x - 3) ** 2 + y**2 - 4))
+    >>> ring = Ring(("c", "s", "x", "y"))
+    >>> c, s, x, y = ring.gens
+    >>> found = next(towers((c**2 + s**2 - 1, (x - c) ** 2 + (y - s) ** 2 - 9, (x - 3) ** 2 + y**2 - 4)))
     >>> found.base, found.dyads[0].unknowns
     (('c', 's'), ('x', 'y'))
     """
-    ring = equations[0].ring
-    constants = {c.name for c in ring.constants}
-    numbers = tuple(p for p in equations if constants.issuperset(p.variables))
-    others = [p for p in equations if p not in numbers]
-    for circle in others:
-        base = tuple(name for name in circle.variables if name not in constants)
-        if len(base) != 2 or not _is_circle(circle, base):
-            continue
-        form = block_form([p for p in others if p is not circle], given=(*base, *constants))
-        complete = len(base) + sum(len(m.unknowns) for m in form.modules) + len(constants)
-        if complete != len(ring.names) or form.left_over:
-            continue
-        if all(map(_is_round, form.modules)):
-            return Tower(numbers, circle, (base[0], base[1]), form.modules)
-    return None
+    for circle in equations:
+        ring = circle.ring
+        constants = {c.name for c in ring.constants}
+        names = [name for name in circle.variables if name not in constants]
+        for x, y in combinations(names, 2):
+            if not _is_circle(circle, (x, y)):
+                continue
+            form = block_form([p for p in equations if p is not circle], given=(x, y))
+            known, foundation, dyads = set[str](), list[Module](), list[Module]()
+            for module in form.modules:
+                if known.issuperset(module.parents):
+                    foundation.append(module)
+                    known |= set(module.unknowns)
+                else:
+                    dyads.append(module)
+            complete = 2 + sum(len(m.unknowns) for m in form.modules) == len(ring.names)
+            stands = known.issuperset({*circle.variables} - {x, y})
+            if complete and stands and not form.left_over and all(map(_is_round, dyads)):
+                yield Tower(tuple(foundation), circle, (x, y), tuple(dyads))
 
 
 def _is_circle(p: Polynomial, names: Sequence[str]) -> bool:
@@ -95,46 +115,61 @@ def _is_round(module: Module) -> bool:
     return one is not None and one == two and one.is_constant and (1, 1) not in found.conic
 
 
-def points_on_tower(equations: Equations, budget: Budget) -> tuple[BoxPoint, ...]:
+def points_on_tower(equations: Equations, solve: Solver, budget: Budget) -> Known[tuple[BoxPoint, ...]]:
     """All real points of a square system, of which all equations but one are a circle with dyads over it.
 
+    solve: for what the circle stands on.
     Raises `Undecided` where they are not, or the curve is not smooth, or touched by the equation left out.
 
-    >>> c, s, x, y = Ring(("c", "s", "x", "y")).gens
+    >>> ring = Ring(("c", "s", "x", "y"))
+    >>> c, s, x, y = ring.gens
     >>> crank_rocker = (c**2 + s**2 - 1, (x - c) ** 2 + (y - s) ** 2 - 9, (x - 3) ** 2 + y**2 - 4)
-    >>> [p.decimals(3)["x"] for p in points_on_tower((*crank_rocker, c * y - s * x), Budget())]
+    >>> found = points_on_tower((*crank_rocker, c * y - s * x), lambda equations: Known(()), Budget())
+    >>> [p.decimals(3)["x"] for p in found.value]
     ['1.50', '1.50', '3.50', '3.50']
     """
-    for found, last in _towers(equations):
-        curve = lifted_curve(found, budget)
-        return tuple(
-            point for loop in curve.loops for point in zeros_on(curve.system, loop, last, budget).zeros
-        )
-    raise Undecided("the equations are not a curve of dyads over a circle, and one more")
+    first = next(_with_one_more(equations), None)
+    if first is None:
+        raise Undecided("the equations are not a curve of dyads over a circle, and one more")
+    found, last = first
+    known = lifted_curves(found, solve, budget)
+    return known.map(lambda curves: tuple(p for curve in curves for p in curve.where(last, budget)))
 
 
 def is_tower(equations: Equations) -> bool:
     """Whether equations are a circle with dyads over it, and one more."""
-    return next(_towers(equations), None) is not None
+    return next(_with_one_more(equations), None) is not None
 
 
-def _towers(equations: Equations) -> Iterator[tuple[Tower, Polynomial]]:
+def _with_one_more(equations: Equations) -> Iterator[tuple[Tower, Polynomial]]:
     """Each way to see them so, with the equation that is left out; long ones are left out first."""
     for last in sorted(equations, key=len, reverse=True):
-        found = tower([p for p in equations if p is not last])
-        if found is not None:
+        for found in towers([p for p in equations if p is not last]):
             yield found, last
 
 
-def lifted_curve(found: Tower, budget: Budget) -> LiftedCurve:
-    """All components of the curve of a tower; raises `Undecided` where it is not proven to be smooth."""
+def lifted_curves(found: Tower, solve: Solver, budget: Budget) -> Known[tuple[LiftedCurve, ...]]:
+    """The curves of a tower, one over each point of its foundation.
+
+    Raises `Undecided` where one is not proven to be smooth.
+    """
     ring = found.circle.ring
-    own = _subring(ring, (*(c.name for c in ring.constants), *found.base))
-    equations = tuple(map(own.convert, (*found.numbers, found.circle)))
-    curve = _traced(own, equations, _on_circle(own, equations, found.base), budget)
-    for module in found.dyads:
-        curve = _lifted(curve, module, ring, budget)
-    return curve
+    below = _subring(ring, [name for m in found.foundation for name in m.unknowns])
+    given = tuple(below.convert(p) for m in found.foundation for p in m.equations)
+    own = _subring(ring, (*below.names, *found.base))
+    standing: Known[tuple[BoxPoint | None, ...]] = solve(given) if given else Known((None,))
+
+    def over(point: BoxPoint | None) -> LiftedCurve:
+        held = () if point is None else point.equations
+        equations = tuple(map(own.convert, (*held, found.circle)))
+        known = {} if point is None else dict(zip(below.names, point.refine(_BITS).box, strict=True))
+        curve = _traced(own, equations, list(_on_circle(equations, found.base, known)), budget)
+        for module in found.dyads:
+            curve = _lifted(curve, module, ring, budget)
+        zeros = () if point is None else tuple(map(ring.convert, point.zeros))
+        return replace(curve, zeros=zeros)
+
+    return standing.map(lambda points: tuple(map(over, points)))
 
 
 def _subring(ring: Ring, names: Sequence[str]) -> Ring:
@@ -151,19 +186,22 @@ def _traced(ring: Ring, equations: Equations, marks: Sequence[BoxPoint], budget:
     return LiftedCurve(system, tuple(edge.chain for edge in edges))
 
 
-def _on_circle(ring: Ring, equations: Equations, base: tuple[str, str]) -> list[BoxPoint]:
-    """A point of the circle, where it is one: at about a quarter of its radius above its centre."""
+def _on_circle(equations: Equations, base: tuple[str, str], known: dict[str, arb]) -> Iterator[BoxPoint]:
+    """A point of a circle, where it is one: at about a quarter of its radius above its centre."""
     circle, (x, y) = equations[-1], base
     parts = (circle.coefficient(x, i).coefficient(y, j) for i, j in ((2, 0), (1, 0), (0, 1), (0, 0)))
-    numbers = [float((c.low + c.high) / 2) for c in ring.constants]
-    near = dict(zip((c.name for c in ring.constants), numbers, strict=True))
-    a, b, c, d = (float(p.evaluate([near.get(n, 0.0) for n in ring.names])) for p in parts)
-    square = (b * b + c * c) / (4 * a * a) - d / a
-    if square <= 0:
-        raise Undecided("whether a circle has real points is not seen")
-    height = Fraction(-c / (2 * a) + sqrt(square) / 4).limit_denominator(1000)
-    near |= {x: -b / (2 * a) + sqrt(square - (height + c / (2 * a)) ** 2), y: float(height)}
-    return [_certified((*equations, ring.gen(y) - height), [near[n] for n in ring.names])]
+    with at_precision(_BITS + 64):
+        a, b, c, d = (_value(p, known) for p in parts)
+        square = (b * b + c * c) / (4 * a * a) - d / a
+        if square < 0:
+            return
+        if not square > 0:
+            raise Undecided("whether a circle has real points is not seen")
+        middle = -c / (2 * a)
+        height = Fraction(float((middle + square.sqrt() / 4).mid())).limit_denominator(1000)
+        across = -b / (2 * a) + (square - (ball(height) - middle) ** 2).sqrt()
+        values = {**known, x: across, y: ball(height)}
+    yield _over((*equations, circle.ring.gen(y) - height), values)
 
 
 def _lifted(curve: LiftedCurve, module: Module, whole: Ring, budget: Budget) -> LiftedCurve:
@@ -198,21 +236,10 @@ def _never_zero(curve: LiftedCurve, loop: Chain, polynomial: Polynomial, budget:
 
 def _touching(base: BoxPoint, found: Dyad, equations: Equations) -> BoxPoint:
     """The point over a zero of the discriminant, where line and conic touch; the tangency comes last."""
-    x, y = found.unknowns
     fine = base.refine(_BITS)
     with at_precision(_BITS + 64):
         known = dict(zip(base.ring.names, fine.box, strict=True))
-        line = {m: _value(c, known) for m, c in found.line.items()}
-        conic = {m: _value(c, known) for m, c in found.conic.items()}
-        a, b, c = (line.get(m, arb(0)) for m in ((1, 0), (0, 1), (0, 0)))
-        round_, u, v = (conic.get(m, arb(0)) for m in ((2, 0), (1, 0), (0, 1)))
-        # the foot of the circle's centre on the line
-        across = -u / (2 * round_), -v / (2 * round_)
-        length = a * a + b * b
-        if length.contains(0):
-            raise Undecided("a dyad turns freely at a point of a curve")
-        off = (a * across[0] + b * across[1] + c) / length
-        known |= {x: across[0] - a * off, y: across[1] - b * off}
+        known |= found.touching(known)
     return _over(equations, known)
 
 

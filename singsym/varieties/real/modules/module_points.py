@@ -7,7 +7,9 @@ a Krawczyk test of the whole system for each point at the end.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import product
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from functools import cached_property
 from math import prod
 
 from flint import arb
@@ -20,12 +22,12 @@ from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.elimination.memo import remember
 from singsym.polynomials import Equations, Polynomial, Ring
 from singsym.polynomials.block_form import BlockForm, Module, block_form
-from singsym.varieties.real.modules.assemblies import assemblies, is_simple
+from singsym.varieties.real.modules.assemblies import assemblies, dyad, is_simple
 from singsym.varieties.real.modules.lifted_curve import is_tower, points_on_tower
 from singsym.varieties.real.points.boxed_point import BoxPoint, boxed_point
 from singsym.varieties.real.points.exact_point import RealPoint
 from singsym.varieties.real.points.finite_sets import real_points
-from singsym.varieties.real.points.intervals import at_precision, exact_bounds
+from singsym.varieties.real.points.intervals import at_precision, evaluate, exact_bounds
 
 PRECISIONS = (256, 1024)
 """Bits of the balls of a first module, tried in turn where something is not seen."""
@@ -35,14 +37,15 @@ MOST_SOLUTIONS = 1000
 
 
 def module_points(equations: Equations) -> Known[tuple[BoxPoint, ...]]:
-    """All real points of equations that come apart into modules, each certified; none has a multiplicity.
+    """All real points of equations that come apart into modules, each certified.
 
     The certainty is that of there being no others.
 
     Lemma: the real points of all equations are those of the first modules with, over each, the assemblies of
     the next module, and so on; equations that are left over hold at them or not.
-    Raises `Undecided` where a module is neither first nor simple, or where balls leave a number open, as they
-    do at points with a multiplicity.
+    Where two assemblies of a dyad are one, and for equations left over, exact algebra is asked in the ring
+    of what is concerned.  Raises `Undecided` where a module is neither first nor simple, or where all this
+    leaves a number open, as at other points with a multiplicity.
 
     >>> from singsym.polynomials import Ring
     >>> x, y, z = Ring(("x", "y", "z")).gens
@@ -66,93 +69,195 @@ def comes_apart(equations: Equations) -> bool:
 
 
 def _points(equations: Equations) -> Known[tuple[BoxPoint, ...]]:
-    ring = equations[0].ring
-    form = block_form(equations)
-    if sum(len(m.unknowns) for m in form.modules) < len(ring.names):
-        raise Undecided("there are fewer equations than unknowns")
-    hard = [m for m in form.modules if not _is_first(m, ring) and not is_simple(m)]
-    if hard:
-        raise Undecided(f"a module with unknowns {', '.join(hard[0].unknowns)} is not simple")
-    premises = Premises()
-    first = {m: premises.take(_exact(m, ring)) for m in form.modules if _is_first(m, ring)}
+    solving = _Solving(equations[0].ring, block_form(equations))
     failure = Undecided("no precision was tried")
     for bits in PRECISIONS:
         try:
             with at_precision(bits):
-                return premises.conclude(tuple(_certified(form, ring, first, bits)))
+                return solving.premises.conclude(tuple(solving.points(bits)))
         except Undecided as reason:
             current().check("points by modules")
             failure = reason
     raise failure
 
 
-def _is_first(module: Module, ring: Ring) -> bool:
-    """Whether a module stands by itself, fixed numbers aside."""
-    return set(module.parents) <= {c.name for c in ring.constants}
+@dataclass(frozen=True)
+class _Step:
+    """Modules that are solved together: one of them, or a hard one with all that it needs.
+
+    alone: whether no values of other modules are needed, fixed numbers aside.
+    """
+
+    modules: tuple[Module, ...]
+    alone: bool
+
+    @property
+    def unknowns(self) -> set[str]:
+        return {name for m in self.modules for name in m.unknowns}
 
 
-def _exact(module: Module, ring: Ring) -> Known[tuple[BoxPoint, ...]]:
-    """All real points of a first module, with the fixed numbers in it, in boxes that are quick to refine."""
-    names = {*module.unknowns, *module.parents}
+@dataclass
+class _Solving:
+    """A square system under way.
+
+    solved: the points of steps that need nothing; premises: what all this rests on.
+    """
+
+    ring: Ring
+    form: BlockForm
+    solved: dict[_Step, tuple[BoxPoint, ...]] = field(default_factory=dict)
+    premises: Premises = field(default_factory=Premises)
+
+    @cached_property
+    def steps(self) -> tuple[_Step, ...]:
+        """The modules in order, without those that depend on unknowns that nothing determines."""
+        constants = {c.name for c in self.ring.constants}
+        loose, steps = set(self.form.free), list[_Step]()
+        for module in self.form.modules:
+            if loose & set(module.parents):
+                loose |= set(module.unknowns)
+                continue
+            alone = constants.issuperset(module.parents)
+            step = _Step((module,), alone)
+            if not alone and not is_simple(module):
+                step = _Step((*self.form.ancestors(module), module), True)
+                steps = [other for other in steps if not step.unknowns & other.unknowns]
+            steps.append(step)
+        return tuple(steps)
+
+    def points(self, bits: int) -> Iterator[BoxPoint]:
+        """All points; raises `Undecided` where the balls of so many bits do not tell them."""
+        for found in self._extended(self.steps, _Partial(), self.form.left_over, bits):
+            if len(found.values) < len(self.ring.names):
+                raise Undecided("there are fewer equations than unknowns")
+            yield found.certified(self.ring)
+
+    def _extended(
+        self, steps: Sequence[_Step], known: _Partial, left_over: Sequence[Polynomial], bits: int
+    ) -> Iterator[_Partial]:
+        """What is known with the values of further unknowns, where no equation left over fails."""
+        current().check("points by modules")
+        ready = [p for p in left_over if known.values.keys() >= set(p.variables)]
+        if not all(_may_vanish(p, known.values) for p in ready):
+            return
+        for p in ready:
+            if not self._is_zero(p, known):
+                raise Undecided("whether an equation left over holds at a point is not seen")
+        known = replace(known, zeros=(*known.zeros, *ready))
+        if not steps:
+            yield known
+            return
+        waiting = [p for p in left_over if p not in ready]
+        for further in self._further(steps[0], known, bits):
+            yield from self._extended(steps[1:], further, waiting, bits)
+
+    def _further(self, step: _Step, known: _Partial, bits: int) -> Iterator[_Partial]:
+        if step.alone:
+            if step not in self.solved:
+                self.solved[step] = self.premises.take(_alone(step, self.ring))
+            for point in self.solved[step]:
+                values = dict(zip(point.ring.names, point.refine(bits).box, strict=True))
+                equations, zeros = (tuple(map(self.ring.convert, g)) for g in (point.equations, point.zeros))
+                yield replace(known, zeros=(*known.zeros, *zeros)).plus(values, equations)
+            return
+        module = step.modules[-1]
+        found = dyad(module)
+        if found is not None and _may_vanish(found.discriminant, known.values):
+            if not self._is_zero(found.discriminant, known):
+                raise Undecided("whether two assemblies are one is not seen")
+            touching = replace(known, zeros=(*known.zeros, *module.equations))
+            yield touching.plus(found.touching(known.values), (found.line_equation, found.tangency))
+            return
+        for values in assemblies(module, known.values):
+            yield known.plus(values, module.equations)
+
+    def _is_zero(self, p: Polynomial, known: _Partial) -> bool:
+        """Whether a polynomial vanishes at what is known: by exact algebra in the ring of what it needs."""
+        equations = known.needed_for(p)
+        own = self.ring.with_names(
+            tuple(n for n in self.ring.names if any(n in e.variables for e in equations))
+        )
+        system = tuple(map(own.convert, equations))
+        here = boxed_point(own, system, {}, [_middle(known.values[n]) for n in own.names])
+        if here is None or not all(
+            b.contains(known.values[n]) for n, b in zip(own.names, here.box, strict=True)
+        ):
+            raise Undecided("the Krawczyk test fails for a part of a point")
+        with attempt("a zero at a point", patience.FIRST_MODULE.work):
+            zeros = self.premises.take(real_points((*system, own.convert(p))))
+            return any(_is_in(point, here) for point in zeros)
+        raise Undecided("whether a polynomial is zero at a point is not found in time")
+
+
+def _is_in(point: RealPoint, box: BoxPoint) -> bool:
+    return all(b.contains(a) for a, b in zip(point.refine(96).box, box.box, strict=True))
+
+
+@dataclass(frozen=True)
+class _Partial:
+    """The values of some unknowns at a point, in balls.
+
+    equations: as many, of which it is a solution without multiplicity; zeros: more that vanish there.
+    """
+
+    values: Mapping[str, arb] = field(default_factory=dict)
+    equations: Equations = ()
+    zeros: Equations = ()
+
+    def plus(self, values: Mapping[str, arb], equations: Equations) -> _Partial:
+        """With further values, and the equations that they solve."""
+        together = tuple(dict.fromkeys((*self.equations, *equations)))
+        return replace(self, values={**self.values, **values}, equations=together)
+
+    def needed_for(self, p: Polynomial) -> Equations:
+        """The equations that determine the variables of a polynomial, in as many variables."""
+        form = block_form(self.equations)
+        needed, found = set(p.variables), list[Polynomial]()
+        for module in reversed(form.modules):
+            if needed & set(module.unknowns):
+                needed |= set(module.parents)
+                found += module.equations
+        return tuple(found)
+
+    def certified(self, ring: Ring) -> BoxPoint:
+        """The whole point in a box of its own."""
+        balls = [self.values[name] for name in ring.names]
+        point = boxed_point(ring, self.equations, {}, [_middle(b) for b in balls])
+        if point is None or not all(b.contains(a) for a, b in zip(balls, point.box, strict=True)):
+            raise Undecided("the Krawczyk test fails at a point found by modules")
+        return replace(point, zeros=self.zeros)
+
+
+def _middle(value: arb) -> Fraction:
+    low, high = exact_bounds(value)
+    return (low + high) / 2
+
+
+def _may_vanish(p: Polynomial, known: Mapping[str, arb]) -> bool:
+    value: arb = evaluate(p, [known.get(name, arb(0)) for name in p.ring.names])
+    return bool(value.contains(0))
+
+
+def _alone(step: _Step, ring: Ring) -> Known[tuple[BoxPoint, ...]]:
+    """All real points of a step that needs nothing, with its fixed numbers, in boxes quick to refine."""
+    names = {name for m in step.modules for name in (*m.unknowns, *m.parents)}
     own = ring.with_names(tuple(n for n in ring.names if n in names))
-    equations = tuple(dict.fromkeys((*map(own.convert, module.equations), *own.relations)))
-    if prod(p.total_degree for p in equations) > MOST_SOLUTIONS and is_tower(equations):
-        return Known(points_on_tower(equations, current()))
+    given = (own.convert(p) for m in step.modules for p in m.equations)
+    equations = tuple(dict.fromkeys((*given, *own.relations)))
+    many = len(step.modules) > 1 or prod(p.total_degree for p in equations) > MOST_SOLUTIONS
+    if many and is_tower(equations):
+        return points_on_tower(equations, module_points, current())
     with attempt("the points of a module by algebra", patience.FIRST_MODULE.work):
         try:
             points = real_points(equations)
             return points.map(lambda found: tuple(_boxed(point, equations) for point in found))
         except NotZeroDimensional as reason:
             raise Undecided(f"a module by itself: {reason}") from None
-    return Known(points_on_tower(equations, current()))
+    return points_on_tower(equations, module_points, current())
 
 
 def _boxed(point: RealPoint, equations: Equations) -> BoxPoint:
     found = boxed_point(point.ring, equations, {}, point.floats)
-    if found is None or not all(b.contains(a) for a, b in zip(point.refine(96).box, found.box, strict=True)):
+    if found is None or not _is_in(point, found):
         raise Undecided("the Krawczyk test fails at a point of a first module")
     return found
-
-
-def _certified(
-    form: BlockForm, ring: Ring, first: Mapping[Module, Sequence[BoxPoint]], bits: int
-) -> Iterator[BoxPoint]:
-    equations = tuple(p for m in form.modules for p in m.equations)
-    for values in _values(form.modules, first, bits):
-        current().check("points by modules")
-        balls = [values[name] for name in ring.names]
-        if not _may_hold(form.left_over, balls):
-            continue
-        middles = [sum(exact_bounds(b)) / 2 for b in balls]
-        point = boxed_point(ring, equations, {}, middles)
-        if point is None or not all(b.contains(a) for a, b in zip(balls, point.box, strict=True)):
-            raise Undecided("the Krawczyk test fails at a point found by modules")
-        if all(point.sign(p) == 0 for p in form.left_over):
-            yield point
-
-
-def _may_hold(equations: Sequence[Polynomial], balls: Sequence[arb]) -> bool:
-    return all(p.evaluate(list(balls)).contains(0) for p in equations)
-
-
-def _values(
-    modules: Sequence[Module], first: Mapping[Module, Sequence[BoxPoint]], bits: int
-) -> Iterator[dict[str, arb]]:
-    """The values of all unknowns at all points, in balls."""
-    starts = [_balls(points, bits) for points in first.values()]
-    later = [m for m in modules if m not in first]
-    for combination in product(*starts):
-        # fixed numbers have the same values in all modules
-        yield from _extended(later, {name: ball for part in combination for name, ball in part.items()})
-
-
-def _balls(points: Sequence[BoxPoint], bits: int) -> list[dict[str, arb]]:
-    return [dict(zip(p.ring.names, p.refine(bits).box, strict=True)) for p in points]
-
-
-def _extended(modules: Sequence[Module], known: dict[str, arb]) -> Iterator[dict[str, arb]]:
-    if not modules:
-        yield known
-        return
-    for found in assemblies(modules[0], known):
-        yield from _extended(modules[1:], {**known, **found})

@@ -33,7 +33,8 @@ class BoxPoint(EnclosedPoint):
     """The only solution of `equations` in a box, with some coordinates at rationals.
 
     middles: rationals for all names, in order; unknowns: the names that the equations determine; the box of
-    these is middle +- radius.  Signs are decided where they are not zero, and for the equations themselves.
+    these is middle +- radius.  Signs are decided where they are not zero, and for what is known to vanish:
+    the equations, and further polynomials, `zeros`.
     """
 
     equations: tuple[Polynomial, ...]
@@ -41,6 +42,7 @@ class BoxPoint(EnclosedPoint):
     middles: tuple[Fraction, ...]
     radius_bound: Fraction
     bits: int = 64
+    zeros: tuple[Polynomial, ...] = ()
 
     @cached_property
     def box(self) -> tuple[arb, ...]:
@@ -51,20 +53,22 @@ class BoxPoint(EnclosedPoint):
 
     def reflect(self, names: Collection[str]) -> BoxPoint:
         """The point with the signs of these coordinates changed, a solution of the equations so changed."""
-        equations = tuple(p.reflect(names) for p in self.equations)
+        equations, zeros = (tuple(p.reflect(names) for p in group) for group in (self.equations, self.zeros))
         pairs = zip(self.ring.names, self.middles, strict=True)
-        return replace(self, equations=equations, middles=tuple(-m if n in names else m for n, m in pairs))
+        middles = tuple(-m if n in names else m for n, m in pairs)
+        return replace(self, equations=equations, zeros=zeros, middles=middles)
 
     def refine(self, bits: int) -> BoxPoint:
         """The same point in a box of radius 2^-bits; raises `Undecided` where it cannot be had."""
         if bits <= self.bits:
             return self
         if bits not in self._finer:
-            self._finer[bits] = _sharpened(self.ring, self.equations, self.unknowns, self.middles, bits)
-        finer = self._finer[bits]
-        if finer is None:
+            finer = _sharpened(self.ring, self.equations, self.unknowns, self.middles, bits)
+            self._finer[bits] = None if finer is None else replace(finer, zeros=self.zeros)
+        found = self._finer[bits]
+        if found is None:
             raise Undecided(f"the Krawczyk test fails at {bits} bits")
-        return finer
+        return found
 
     @cached_property
     def _finer(self) -> dict[int, BoxPoint | None]:
@@ -90,7 +94,7 @@ class BoxPoint(EnclosedPoint):
 
     def sign(self, polynomial: Polynomial) -> int:
         """The sign at the point; raises `Undecided` where it seems to be zero and no equation says so."""
-        if polynomial.is_zero or polynomial in self.equations:
+        if polynomial.is_zero or self.is_known_zero(polynomial):
             return 0
         bits = self.bits
         while bits <= _MOST_BITS:
@@ -101,6 +105,14 @@ class BoxPoint(EnclosedPoint):
                 return sign
             bits *= 2
         raise Undecided(f"the sign of {polynomial} at a boxed point: zero up to {_MOST_BITS} bits")
+
+    def is_known_zero(self, polynomial: Polynomial) -> bool:
+        """Whether a polynomial is one of those known to vanish here, up to a rational factor."""
+        return polynomial.primitive() in self._vanishing
+
+    @cached_property
+    def _vanishing(self) -> frozenset[Polynomial]:
+        return self._normal | {p.primitive() for p in self.zeros}
 
     def coincides(self, other: BoxPoint) -> bool:
         """Whether both are the same point, for solutions of the same equations.

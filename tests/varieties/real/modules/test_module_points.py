@@ -44,3 +44,17 @@ def test_points_with_a_multiplicity_are_not_decided() -> None:
 def test_two_equations_for_six_unknowns() -> None:
     with pytest.raises(Undecided, match="fewer equations"):
         module_points((X**2 - 2, Y - X))
+
+
+def test_two_assemblies_that_are_one() -> None:
+    """A crank of length 3 at x = 3, and a dyad to (10, 0) with bars of length 4 and 3: it is stretched there.
+
+    The point is (7, 0); what vanishes there and is not among the equations solved is known to."""
+    crank = (C - 3, S**2)
+    (point,) = module_points(
+        (C - 3, S, (U - C) ** 2 + (V - S) ** 2 - 16, (U - 10) ** 2 + V**2 - 9, X - U, Y - V)
+    ).value
+    assert point.floats == pytest.approx((3, 0, 7, 0, 7, 0))
+    assert point.sign((U - 10) ** 2 + V**2 - 9) == 0
+    with pytest.raises(Undecided):
+        module_points((*crank, (U - C) ** 2 + (V - S) ** 2 - 16, (U - 10) ** 2 + V**2 - 9, X - U, Y - V))
