@@ -81,20 +81,30 @@ class SingularLoci:
         found = {name: 1 for name, own in loci.items() if own is not None and {locus, ()} & set(own)}
         return found | (dict.fromkeys(("L_I", "L_O"), 1) if {"L_p", "L"} & set(found) else {})
 
-    @property
-    def searched(self) -> tuple[str, Loci]:
-        """The loci outside of which all classes are known without a search, and a matrix to look at first.
+    def searched(self, n: int) -> tuple[str, Loci]:
+        """Loci outside of which all classes are known without a search, and a matrix to look at first.
 
-        Those of (iii) and (vi), where they are known; else those of (4) or (5), whichever are shorter.
+        The zeros of (4), or of (5); or those of (iii) and (vi), where they are known and not longer.  First
+        those that may be expected to be smallest for n freedoms, one less for each equation; then the shorter.
         """
         sides = [
             (name, loci) for name, loci in (("L_O", self.outputs), ("L_I", self.inputs)) if () not in loci
         ]
         sides = sides or [("L_O", self.outputs)]
-        matrix, loci = min(sides, key=lambda side: sum(len(p) for locus in side[1] for p in locus))
         if self.passive is not None and self.mobility is not None:
-            loci = tuple(dict.fromkeys((*self.passive, *self.mobility)))
-        return matrix, loci
+            both = tuple(dict.fromkeys((*self.passive, *self.mobility)))
+            if _longest(both) <= max(_longest(loci) for _, loci in sides):
+                sides.append((sides[0][0], both))
+
+        def cost(side: tuple[str, Loci]) -> tuple[int, int]:
+            dimensions = (max(0, n - len(locus)) for locus in side[1])
+            return max(dimensions, default=0), sum(len(p) for locus in side[1] for p in locus)
+
+        return min(sides, key=cost)
+
+
+def _longest(loci: Loci) -> int:
+    return max((len(p) for locus in loci for p in locus), default=0)
 
 
 def search(
@@ -158,7 +168,7 @@ def _started(root: Branch, singular: SingularLoci) -> tuple[list[Found], list[Br
     """The strata that need no search, and the branches where the others are."""
     found = list(_strata_without_search(root, singular))
     complete_types = tuple(dict.fromkeys((*(part.stratum.defects.types for part in found), *_SIMPLE)))
-    matrix, loci = singular.searched
+    matrix, loci = singular.searched(root.problem.n)
     ready = replace(root, first_matrix=matrix, complete_types=complete_types)
     return found, [
         ready.within(locus, loci[:i], root.equations, singular.defects_on(locus))
