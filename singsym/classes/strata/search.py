@@ -85,7 +85,7 @@ class SingularLoci:
         """Loci outside of which all classes are known without a search, and a matrix to look at first.
 
         The zeros of (4), or of (5); or those of (iii) and (vi), where they are known and not longer.  First
-        those that may be expected to be smallest for n freedoms, one less for each equation; then the shorter.
+        those that are smallest if each equation takes one of n freedoms; then the shorter.
         """
         sides = [
             (name, loci) for name, loci in (("L_O", self.outputs), ("L_I", self.inputs)) if () not in loci

@@ -24,6 +24,7 @@ PLANE_AND_LINE = (x * y, x * z)
 """The plane x = 0 and the x axis."""
 
 
+@pytest.mark.engines
 def test_a_bound_is_not_below_a_part_of_the_set() -> None:
     """The plane is of dimension 2: no bound of 1 or 0, whatever the line is."""
     system = RealSystem(R, PLANE_AND_LINE)
@@ -50,6 +51,7 @@ def test_a_dimension_is_no_bound_below_itself_though_nothing_was_seen(
     assert bound_above(system, 2) == Known(2)
 
 
+@pytest.mark.engines
 def test_what_an_exclusion_takes_out_does_not_count() -> None:
     """Without the plane x = 0 the line is left; without the line's points y = z = 0 the plane is."""
     line = RealSystem(R, PLANE_AND_LINE, exclusions=((x,),))
@@ -59,6 +61,7 @@ def test_what_an_exclusion_takes_out_does_not_count() -> None:
     assert bound_above(RealSystem(R, PLANE_AND_LINE, exclusions=((y, z),)), 1) is None
 
 
+@pytest.mark.engines
 def test_variables_in_no_equation_do_not_count_where_it_is_said() -> None:
     """x = y = 0 with z beside is a point in (x, y)."""
     system = RealSystem(R, (x, y))
