@@ -79,6 +79,38 @@ def block_form(equations: Sequence[Polynomial], given: Collection[str] = ()) -> 
     return BlockForm(modules, left_over, tuple(name for name in everything if name not in owner))
 
 
+def with_last_modules(
+    equations: Sequence[Polynomial], size: int
+) -> tuple[tuple[Polynomial, ...], tuple[Module, ...]]:
+    """Equations without modules that come last, of so many unknowns each, and these in order.
+
+    A module comes last where its unknowns are in no other equation.  The equations that are left may have
+    more unknowns than they determine.
+
+    >>> from singsym.polynomials import Ring
+    >>> x, y, z = Ring(("x", "y", "z")).gens
+    >>> with_last_modules((x**2 + y**2 - 1, x * y - 2, z - x - y), 1)[0]
+    (x^2 + y^2 - 1, x*y - 2)
+    """
+    left, found = list(equations), list[Module]()
+    while (last := _last_module(left, size)) is not None:
+        left = [p for p in left if p not in last.equations]
+        found.append(last)
+    return tuple(left), tuple(reversed(found))
+
+
+def _last_module(equations: Sequence[Polynomial], size: int) -> Module | None:
+    places: dict[str, tuple[int, ...]] = {}
+    for k, p in enumerate(equations):
+        for name in p.variables:
+            places[name] = (*places.get(name, ()), k)
+    for own in places.values():
+        unknowns = [other for other, there in places.items() if set(there) <= set(own)]
+        if len(own) == len(unknowns) == size and len(own) < len(equations):
+            return _module(equations, list(own), dict(zip(own, unknowns, strict=True)))
+    return None
+
+
 def _matching(names: dict[int, list[str]]) -> dict[str, int]:
     """An equation for each of as many unknowns as possible, by augmenting paths (Kuhn)."""
     owner: dict[str, int] = {}

@@ -8,12 +8,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import combinations
 
+from singsym.effort.attempts import attempt
 from singsym.effort.budget import Undecided, current
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Equations
 from singsym.varieties.real.curves.equations import NotACurve
 from singsym.varieties.real.curves.parts import components_outside
 from singsym.varieties.real.curves.real_curve import real_curve
+from singsym.varieties.real.modules.curve_components import components_off
 from singsym.varieties.real.points.exact_point import RealPoint
 
 
@@ -79,6 +81,8 @@ def _share_a_curve(one: Equations, other: Equations) -> bool:
 
 def _components(equations: Equations, exclusions: tuple[Equations, ...]) -> int:
     """Those of one curve; raises `Undecided`."""
+    with attempt("components by modules", share=1 / 2) as budget:
+        return components_off(equations, exclusions, budget)
     ideal = Ideal(equations[0].ring, equations)
     curve = real_curve(ideal)
     if curve.verdict.is_undecided:

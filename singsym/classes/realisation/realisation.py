@@ -43,6 +43,7 @@ from singsym.varieties.real.dimension.real_dimension import (
     independent,
     real_dimension,
 )
+from singsym.varieties.real.modules.dimension import dimension_bound
 from singsym.varieties.real.modules.module_points import comes_apart, module_points
 from singsym.varieties.real.numerical.sampling import numerical_codimension
 from singsym.varieties.real.points.boxed_point import BoxPoint
@@ -311,6 +312,9 @@ def _charted(system: RealSystem, patch: Patch) -> tuple[Cartesian, int]:
 
 def _bound(system: RealSystem, dimension: int, task: RealTask) -> Known[int] | None:
     """A bound of the dimension of a set, where it is one."""
+    by_modules = dimension_bound(system.closed_equations)
+    if by_modules is not None and by_modules.value <= dimension:
+        return by_modules
     chart, beside = _charted(system, unsplit(system.closed_equations, system.ring))
     if is_bounded(chart.system, dimension, beside):
         return Known(dimension)

@@ -14,6 +14,7 @@ from singsym.effort.budget import current
 from singsym.effort.verdict import Known, Premises, Verdict
 from singsym.elimination import engines
 from singsym.varieties.decomposition import Component
+from singsym.varieties.real.modules.module_points import has_no_assembly
 from singsym.varieties.real.numerical.sampling import Points, numerical_points
 from singsym.varieties.real.points.finite_sets import real_points
 from singsym.varieties.real.proofs.emptiness import is_empty_over_reals, is_excluded
@@ -54,6 +55,9 @@ def is_proven_empty(
     longer = engines.proof_patience() if modular else 1.0
     chart = Cartesian.of(system)
 
+    def no_assembly() -> Verdict:
+        return has_no_assembly(system.closed_equations)
+
     def no_complex_point() -> Verdict:
         most = min(seconds, patience.HASTY_EMPTINESS.work) if hasty else seconds
         with attempt("a proof that there is no complex point", most * longer):
@@ -64,7 +68,7 @@ def is_proven_empty(
         return is_empty_over_reals(chart.trimmed, current().part(seconds * longer), tries=0)
 
     doubtful = Verdict.undecided("that there is no real point was not shown in time")
-    for proof in (no_complex_point, no_real_point):
+    for proof in (no_assembly, no_complex_point, no_real_point):
         answer = proof()
         if answer.is_yes and ((modular and hasty) or answer.certainty == "proven"):
             return answer

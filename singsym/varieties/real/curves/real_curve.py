@@ -21,6 +21,7 @@ from singsym.varieties.real.curves.arithmetic import Array, System
 from singsym.varieties.real.curves.assembly import Assembly, assemble, count_without, extended
 from singsym.varieties.real.curves.critical_points import Samples, points_on_components
 from singsym.varieties.real.curves.equations import CurveEquations, candidates
+from singsym.varieties.real.curves.paths import Chain
 from singsym.varieties.real.curves.stars import find_stars
 from singsym.varieties.real.points.exact_point import RealPoint
 from singsym.varieties.real.points.finite_sets import real_points
@@ -79,6 +80,13 @@ class RealCurve:
         if self.verdict.is_undecided:
             raise ValueError(f"the number of components is {self.verdict}")
         return len(self.components) + len(self.isolated_points)
+
+    @property
+    def loops(self) -> tuple[Chain, ...]:
+        """The proven loops of a smooth bounded curve given by one equation less than variables."""
+        if self._proof is None or self._proof.stars or len(self._proof.equations) != len(self.ring.names) - 1:
+            raise Undecided("the curve is not proven to be smooth and bounded")
+        return tuple(edge.chain for edge in self._proof.edges)
 
     def without(self, *exclusions: Polynomial, budget: Budget | None = None) -> Known[int]:
         """How many connected components are left when the zeros of some polynomials are removed.

@@ -20,6 +20,9 @@ from singsym.varieties.real.curves.tubes import MARGIN, Tubes, location
 from singsym.varieties.real.points.boxed_point import BoxPoint, boxed_point
 
 _HALVINGS = 24
+_MOST_OPEN = 500
+"""Where more tubes than this, or than half of all, are open after `_SOON` halvings, it seems to be zero."""
+_SOON = 3
 _OPEN = 0
 """Nothing is known of a tube; else a sign, 1 or -1, or that the polynomial rises, 2, or falls, -2."""
 
@@ -53,7 +56,7 @@ def zeros_on(system: System, loop: Chain, polynomial: Polynomial, budget: Budget
     [{'x': '0.866', 'y': '0.500'}, {'x': '-0.866', 'y': '0.500'}]
     """
     form = _compiled(polynomial)
-    for _ in range(_HALVINGS):
+    for halvings in range(_HALVINGS):
         budget.check("zeros on a curve")
         if loop.tubes is None:
             raise Undecided("zeros on a curve that is not proven")
@@ -62,6 +65,8 @@ def zeros_on(system: System, loop: Chain, polynomial: Polynomial, budget: Budget
         if not left.any():
             zeros = tuple(_zero(system, polynomial, loop, run) for run in runs)
             return Signed(loop, np.where(np.abs(kinds) == 1, kinds, 0), zeros)
+        if halvings >= _SOON and left.sum() > min(_MOST_OPEN, len(left) / 2):
+            break
         proven = prove_chains(system, [halved(system, loop, left)], budget)
         if isinstance(proven, str):
             raise Undecided(f"zeros on a curve: {proven}")

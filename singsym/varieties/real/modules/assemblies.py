@@ -95,6 +95,23 @@ def is_simple(module: Module) -> bool:
     return len(module.unknowns) == 1 or dyad(module) is not None
 
 
+def is_circle(p: Polynomial, names: Sequence[str]) -> bool:
+    """Whether it is a x^2 + a y^2 plus terms of lower degree in two unknowns, with a rational a."""
+    x, y = names
+    one, two = p.coefficient(x, 2), p.coefficient(y, 2)
+    mixed = p.coefficient(x, 1).coefficient(y, 1)
+    return p.degree(x) == p.degree(y) == 2 and one == two and one.is_constant and not mixed
+
+
+def is_round(module: Module) -> bool:
+    """Whether a module is a dyad with a circle as its conic, so that no solution is at infinity."""
+    found = dyad(module)
+    if found is None:
+        return False
+    one, two = (found.conic.get(m) for m in ((2, 0), (0, 2)))
+    return one is not None and one == two and one.is_constant and (1, 1) not in found.conic
+
+
 def assemblies(module: Module, known: Balls) -> list[dict[str, arb]]:
     """All real solutions over these values of the parents, each in balls; for simple modules.
 

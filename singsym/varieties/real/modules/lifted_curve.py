@@ -25,7 +25,7 @@ from singsym.varieties.real.curves.paths import Chain
 from singsym.varieties.real.curves.tracking import kernels
 from singsym.varieties.real.curves.tubes import location
 from singsym.varieties.real.curves.zeros import zeros_on
-from singsym.varieties.real.modules.assemblies import Dyad, assemblies, dyad
+from singsym.varieties.real.modules.assemblies import Dyad, assemblies, dyad, is_circle, is_round
 from singsym.varieties.real.points.boxed_point import BoxPoint, boxed_point
 from singsym.varieties.real.points.intervals import at_precision, ball, evaluate, exact_bounds
 
@@ -67,6 +67,38 @@ class LiftedCurve:
             for point in zeros_on(self.system, loop, polynomial, budget).zeros:
                 yield replace(point, zeros=self.zeros)
 
+    def lifted(self, module: Module, whole: Ring, budget: Budget) -> LiftedCurve:
+        """The covering of the curve by the assemblies of a dyad.
+
+        Lemma: over a loop on which the discriminant is positive it has two sheets, on which every component
+        has a point over any point of the loop; over an arc where it is positive, between simple zeros, one
+        component, which has a point over each end.  The dyad's line is one there, as the discriminant is a
+        form of second degree in its coefficients.
+        """
+        found = dyad(module)
+        assert found is not None
+        lower = self.system.ring
+        ring = _subring(whole, (*lower.names, *module.unknowns))
+        equations = tuple(map(ring.convert, (*self.system.equations, *module.equations)))
+        discriminant, tangency = lower.convert(found.discriminant), ring.convert(found.tangency)
+        marks: list[BoxPoint] = []
+        for loop in self.loops:
+            signed = zeros_on(self.system, loop, discriminant, budget)
+            if found.pivot is not None and not found.pivot.is_constant:
+                self._never_zero(signed.chain, lower.convert(found.pivot), budget)
+            marks += [_touching(z, found, (*equations, tangency)) for z in signed.zeros]
+            if not signed.zeros and signed.signs[0] > 0:
+                marks += _sheets(self.system, signed.chain, discriminant, module, equations)
+        return _traced(ring, equations, marks, budget)
+
+    def _never_zero(self, loop: Chain, polynomial: Polynomial, budget: Budget) -> None:
+        if zeros_on(self.system, loop, polynomial, budget).zeros:
+            raise Undecided("two circles of a dyad are one at a point of a curve")
+
+    def point_on(self, loop: Chain) -> BoxPoint:
+        """A certified point of one of the loops."""
+        return _point_on(self.system, loop, len(loop.points) // 2)[0]
+
 
 def towers(equations: Sequence[Polynomial]) -> Iterator[Tower]:
     """Each way to see equations of a curve as a circle with dyads over it.
@@ -82,7 +114,7 @@ def towers(equations: Sequence[Polynomial]) -> Iterator[Tower]:
         constants = {c.name for c in ring.constants}
         names = [name for name in circle.variables if name not in constants]
         for x, y in combinations(names, 2):
-            if not _is_circle(circle, (x, y)):
+            if not is_circle(circle, (x, y)):
                 continue
             form = block_form([p for p in equations if p is not circle], given=(x, y))
             known, foundation, dyads = set[str](), list[Module](), list[Module]()
@@ -94,25 +126,8 @@ def towers(equations: Sequence[Polynomial]) -> Iterator[Tower]:
                     dyads.append(module)
             complete = 2 + sum(len(m.unknowns) for m in form.modules) == len(ring.names)
             stands = known.issuperset({*circle.variables} - {x, y})
-            if complete and stands and not form.left_over and all(map(_is_round, dyads)):
+            if complete and stands and not form.left_over and all(map(is_round, dyads)):
                 yield Tower(tuple(foundation), circle, (x, y), tuple(dyads))
-
-
-def _is_circle(p: Polynomial, names: Sequence[str]) -> bool:
-    """Whether it is a x^2 + a y^2 plus terms of lower degree with a rational a."""
-    x, y = names
-    one, two = p.coefficient(x, 2), p.coefficient(y, 2)
-    mixed = p.coefficient(x, 1).coefficient(y, 1)
-    return p.degree(x) == p.degree(y) == 2 and one == two and one.is_constant and not mixed
-
-
-def _is_round(module: Module) -> bool:
-    """Whether a module is a dyad with a circle as its conic, so that no solution is at infinity."""
-    found = dyad(module)
-    if found is None:
-        return False
-    one, two = (found.conic.get(m) for m in ((2, 0), (0, 2)))
-    return one is not None and one == two and one.is_constant and (1, 1) not in found.conic
 
 
 def points_on_tower(equations: Equations, solve: Solver, budget: Budget) -> Known[tuple[BoxPoint, ...]]:
@@ -165,7 +180,7 @@ def lifted_curves(found: Tower, solve: Solver, budget: Budget) -> Known[tuple[Li
         known = {} if point is None else dict(zip(below.names, point.refine(_BITS).box, strict=True))
         curve = _traced(own, equations, list(_on_circle(equations, found.base, known)), budget)
         for module in found.dyads:
-            curve = _lifted(curve, module, ring, budget)
+            curve = curve.lifted(module, ring, budget)
         zeros = () if point is None else tuple(map(ring.convert, point.zeros))
         return replace(curve, zeros=zeros)
 
@@ -204,36 +219,6 @@ def _on_circle(equations: Equations, base: tuple[str, str], known: dict[str, arb
     yield _over((*equations, circle.ring.gen(y) - height), values)
 
 
-def _lifted(curve: LiftedCurve, module: Module, whole: Ring, budget: Budget) -> LiftedCurve:
-    """The covering of a curve by the assemblies of a dyad.
-
-    Lemma: over a loop on which the discriminant is positive it has two sheets, on which every component has
-    a point over any point of the loop; over an arc where it is positive, between simple zeros, one component,
-    which has a point over each end.  The dyad's line is one there, as the discriminant is a form of second
-    degree in its coefficients.
-    """
-    found = dyad(module)
-    assert found is not None
-    lower = curve.system.ring
-    ring = _subring(whole, (*lower.names, *module.unknowns))
-    equations = tuple(map(ring.convert, (*curve.system.equations, *module.equations)))
-    discriminant, tangency = lower.convert(found.discriminant), ring.convert(found.tangency)
-    marks: list[BoxPoint] = []
-    for loop in curve.loops:
-        signed = zeros_on(curve.system, loop, discriminant, budget)
-        if found.pivot is not None and not found.pivot.is_constant:
-            _never_zero(curve, signed.chain, lower.convert(found.pivot), budget)
-        marks += [_touching(z, found, (*equations, tangency)) for z in signed.zeros]
-        if not signed.zeros and signed.signs[0] > 0:
-            marks += _sheets(curve.system, signed.chain, discriminant, module, equations)
-    return _traced(ring, equations, marks, budget)
-
-
-def _never_zero(curve: LiftedCurve, loop: Chain, polynomial: Polynomial, budget: Budget) -> None:
-    if zeros_on(curve.system, loop, polynomial, budget).zeros:
-        raise Undecided("two circles of a dyad are one at a point of a curve")
-
-
 def _touching(base: BoxPoint, found: Dyad, equations: Equations) -> BoxPoint:
     """The point over a zero of the discriminant, where line and conic touch; the tangency comes last."""
     fine = base.refine(_BITS)
@@ -248,21 +233,27 @@ def _sheets(
 ) -> list[BoxPoint]:
     """The two points over one of the loop, at a rational value of a coordinate that changes fast there."""
     values = np.abs(System(system.ring, (discriminant,)).values(loop.points)[:, 0])
-    vertex = loop.points[int(values.argmax())]
-    along = np.abs(kernels(system, vertex[None])[0])
-    name = system.ring.names[int(along.argmax())]
-    level = Fraction(float(vertex[int(along.argmax())])).limit_denominator(10**6)
-    base = _certified((*system.equations, system.ring.gen(name) - level), [float(v) for v in vertex])
-    assert loop.tubes is not None
-    inside, _ = location(loop.tubes, as_balls([base], len(system.ring.names)))
-    if not inside.any():
-        raise Undecided("a point of a curve is not proven to be on its loop")
+    base, held = _point_on(system, loop, int(values.argmax()))
     fine = base.refine(_BITS)
     with at_precision(_BITS + 64):
         known = dict(zip(base.ring.names, fine.box, strict=True))
         over = [{**known, **found} for found in assemblies(module, known)]
-    held = equations[0].ring.gen(name) - level
-    return [_over((*equations, held), balls) for balls in over]
+    return [_over((*equations, equations[0].ring.convert(held)), balls) for balls in over]
+
+
+def _point_on(system: System, loop: Chain, place: int) -> tuple[BoxPoint, Polynomial]:
+    """A certified point of a loop near a vertex, and what holds it there: a coordinate at a rational."""
+    vertex = loop.points[place]
+    along = np.abs(kernels(system, vertex[None])[0])
+    fastest = int(along.argmax())
+    level = Fraction(float(vertex[fastest])).limit_denominator(10**6)
+    held = system.ring.gens[fastest] - level
+    point = _certified((*system.equations, held), [float(v) for v in vertex])
+    assert loop.tubes is not None
+    inside, _ = location(loop.tubes, as_balls([point], len(system.ring.names)))
+    if not inside.any():
+        raise Undecided("a point of a curve is not proven to be on its loop")
+    return point, held
 
 
 def _over(equations: Equations, balls: Mapping[str, arb]) -> BoxPoint:

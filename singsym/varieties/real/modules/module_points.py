@@ -17,7 +17,7 @@ from flint import arb
 from singsym.effort import patience
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Undecided, current
-from singsym.effort.verdict import Known, Premises
+from singsym.effort.verdict import Known, Premises, Verdict
 from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.elimination.memo import remember
 from singsym.polynomials import Equations, Polynomial, Ring
@@ -54,6 +54,22 @@ def module_points(equations: Equations) -> Known[tuple[BoxPoint, ...]]:
     """
     key = (equations[0].ring, equations)
     return remember("points by modules", key, lambda: _points(equations))
+
+
+def has_no_assembly(equations: Equations) -> Verdict:
+    """Whether some modules that determine their unknowns have no real solution: yes, or undecided.
+
+    >>> from singsym.polynomials import Ring
+    >>> x, y, z = Ring(("x", "y", "z")).gens
+    >>> has_no_assembly((x**2 - 4, (y - x) ** 2 - x - 1, y * z - 1, x + 1)).is_yes
+    True
+    """
+    if equations and comes_apart(equations):
+        with attempt("modules without an assembly", patience.ASSEMBLIES.work):
+            found = module_points(equations)
+            if not found.value:
+                return Verdict.yes(found.certainty, reason="modules of the equations have no common assembly")
+    return Verdict.undecided("modules do not show that there is no real point")
 
 
 def comes_apart(equations: Equations) -> bool:

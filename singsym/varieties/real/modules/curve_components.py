@@ -1,0 +1,64 @@
+"""The connected components of a curve, counted in its smallest ring and lifted by the modules that come last.
+
+Source: coverings of curves, see lifted_curve.py; the curve below by real_curve.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from singsym.effort.budget import Budget, Undecided
+from singsym.polynomials import Equations
+from singsym.polynomials.block_form import Module, with_last_modules
+from singsym.varieties.real.curves.arithmetic import System
+from singsym.varieties.real.curves.real_curve import real_curve
+from singsym.varieties.real.modules.assemblies import is_round
+from singsym.varieties.real.modules.lifted_curve import LiftedCurve
+from singsym.varieties.real.points.boxed_point import BoxPoint
+
+
+def core_and_dyads(equations: Equations) -> tuple[Equations, tuple[Module, ...]] | None:
+    """The equations of a curve in few variables, and the dyads over it; `None` where there are none."""
+    core, last = with_last_modules(equations, 2)
+    return (core, last) if core and last and all(map(is_round, last)) else None
+
+
+def components_off(equations: Equations, exclusions: Sequence[Equations], budget: Budget) -> int:
+    """How many components of a smooth bounded curve of a core and dyads do not lie in any exclusion.
+
+    Raises `Undecided` where the equations are not of such a curve, or this is not proven.
+
+    >>> from singsym.polynomials import Ring
+    >>> ring = Ring(("c", "s", "x", "y"))
+    >>> c, s, x, y = ring.gens
+    >>> four_bar = (c**2 + s**2 - 1, (x - c) ** 2 + (y - s) ** 2 - 9, (x - 3) ** 2 + y**2 - 4)
+    >>> components_off(four_bar, (), Budget()), components_off(four_bar, ((y,), (c, s)), Budget())
+    (2, 2)
+    """
+    parts = core_and_dyads(equations)
+    if parts is None:
+        raise Undecided("the curve has no dyads that come last")
+    core, dyads = parts
+    ring = equations[0].ring
+    below = ring.with_names(tuple(n for n in ring.names if any(n in p.variables for p in core)))
+    if len(core) != len(below.names) - 1:
+        raise Undecided("the core of the curve is not given by one equation less than unknowns")
+    own = tuple(map(below.convert, core))
+    found = real_curve(own, budget=budget)
+    if found.verdict.is_undecided or found.singular_points or found.isolated_points:
+        raise Undecided(f"the core of the curve is not proven to be smooth: {found.verdict}")
+    if not all(component.closed for component in found.components):
+        raise Undecided("the core of the curve is not bounded")
+    curve = LiftedCurve(System(below, own), found.loops)
+    for module in dyads:
+        curve = curve.lifted(module, ring, budget)
+    points = [curve.point_on(loop) for loop in curve.loops]
+    return sum(not any(_lies_in(p, group) for group in exclusions) for p in points)
+
+
+def _lies_in(point: BoxPoint, group: Equations) -> bool:
+    """Whether a component lies in an exclusion; `Undecided` where one of its points seems to.
+
+    A component of which a point is outside does not lie inside.
+    """
+    return all(point.sign(p) == 0 for p in group)

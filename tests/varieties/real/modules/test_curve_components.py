@@ -1,0 +1,34 @@
+"""Components of curves that are coverings of smaller ones."""
+
+from __future__ import annotations
+
+import pytest
+
+from singsym.effort.budget import Budget, Undecided
+from singsym.polynomials import Ring
+from singsym.varieties.real.curves.real_curve import real_curve
+from singsym.varieties.real.modules.curve_components import components_off
+
+R = Ring(("c", "s", "x", "y", "z"))
+C, S, X, Y, Z = R.gens
+FOUR_BAR = (C**2 + S**2 - 1, (X - C) ** 2 + (Y - S) ** 2 - 9, (X - 3) ** 2 + Y**2 - 4)
+
+
+def test_as_many_as_of_the_whole_curve() -> None:
+    """A Grashof four-bar: two; once lifted from the crank's circle, once as one curve in four variables."""
+    small = Ring(("c", "s", "x", "y"))
+    four = tuple(map(small.convert, FOUR_BAR))
+    assert components_off(four, (), Budget()) == real_curve(four).connected_components == 2
+
+
+def test_a_component_in_an_exclusion_does_not_count() -> None:
+    """Where the product (s - 2) (c^2 + s^2 - 1) is zero: all of the curve, and nothing else."""
+    small = Ring(("c", "s", "x", "y"))
+    four = tuple(map(small.convert, FOUR_BAR))
+    assert components_off(four, (four[:1],), Budget()) == 0
+    assert components_off(four, ((small.gens[1] - 2,),), Budget()) == 2
+
+
+def test_a_curve_without_dyads() -> None:
+    with pytest.raises(Undecided, match="no dyads"):
+        components_off((C**2 + S**2 - 1, X - C, Y - S, Z - C * S), (), Budget())
