@@ -61,25 +61,25 @@ def configuration_space(
         remark = "; ".join(filter(None, remarks))
         found.append(SpacePiece(piece.extent, smooth, piece.defects, piece.verdict, piece.basis, remark))
     singular = [p for p in pieces if p.path and p.verdict.is_yes]
-    least = usual if found else max((p.extent.at_least for p in singular), default=0)
-    own = [c for c in classes if c.verdict.is_yes and c.extent.at_least >= least]
+    at_least = usual if found else max((p.extent.at_least for p in singular), default=0)
+    own = [c for c in classes if c.verdict.is_yes and c.extent.at_least >= at_least]
     for result in own:
-        inside = [p for p in singular if p.defects.types == result.types and p.extent.at_least >= least]
+        inside = [p for p in singular if p.defects.types == result.types and p.extent.at_least >= at_least]
         if inside:
             largest = max(inside, key=lambda p: p.extent.at_least)
             extent = union(p.extent for p in inside)
             remark = f"every configuration of this piece is singular: {result.types}"
             found.append(SpacePiece(extent, smooth, largest.defects, largest.verdict, largest.basis, remark))
-    if found and (open_ones := [c for c in classes if _may_be_a_piece(c, least)]):
+    if found and (open_ones := [c for c in classes if _may_be_a_piece(c, at_least)]):
         found.append(_perhaps(open_ones, smooth))
     return tuple(found)
 
 
-def _may_be_a_piece(result: ClassResult, least: int) -> bool:
+def _may_be_a_piece(result: ClassResult, at_least: int) -> bool:
     """Whether a class is not known to be as large as a piece of the space, nor to be smaller."""
-    if result.verdict.is_no or result.extent.at_least >= least:
+    if result.verdict.is_no or result.extent.at_least >= at_least:
         return False
-    return result.extent.at_most is None or result.extent.at_most >= least
+    return result.extent.at_most is None or result.extent.at_most >= at_least
 
 
 def _perhaps(results: Sequence[ClassResult], smooth: str) -> SpacePiece:

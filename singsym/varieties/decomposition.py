@@ -208,9 +208,9 @@ def _by_levels(
         for piece in pieces:
             base = tuple(inner.convert(p) for p in piece.generators)
             fresh = len(level.names) - len(piece.ideal.ring.names)
-            least = piece.dimension + fresh - len(added) if piece.is_pure else 0
+            smallest = piece.dimension + fresh - len(added) if piece.is_pure else 0
             macaulay = piece.purity == "Cohen-Macaulay"
-            system = _System(inner, (*base, *added), known, least, macaulay)
+            system = _System(inner, (*base, *added), known, smallest, macaulay)
             found += premises.take(_refine(system))
         pieces = list(premises.take(_all_in_ring(found, inner)))
     return premises.conclude(pieces)
@@ -223,19 +223,19 @@ def _by_levels(
 class _System:
     """Equations to split, and what is known of their zeros outside those of `nonzero`.
 
-    least: no component of the set that is being split has a smaller dimension (Krull: each equation takes
+    smallest: no component of the set that is being split has a smaller dimension (Krull: each equation takes
     one at most off a set of a single dimension); the parts below it lie in others and are dropped.  macaulay:
-    if `least` is the dimension, the ideal is Cohen-Macaulay (unmixedness theorem).
+    if `smallest` is the dimension, the ideal is Cohen-Macaulay (unmixedness theorem).
     """
 
     ring: Ring
     equations: tuple[Polynomial, ...]
     nonzero: frozenset[Polynomial]
-    least: int
+    smallest: int
     macaulay: bool = False
 
     def plus(self, p: Polynomial, nonzero: Iterable[Polynomial] = ()) -> _System:
-        return _System(self.ring, (*self.equations, p), self.nonzero | frozenset(nonzero), self.least)
+        return _System(self.ring, (*self.equations, p), self.nonzero | frozenset(nonzero), self.smallest)
 
     def replaced(self, equations: Iterable[Polynomial], *, same_ideal: bool) -> _System:
         return replace(self, equations=tuple(equations), macaulay=self.macaulay and same_ideal)
@@ -268,7 +268,7 @@ def _refined(system: _System) -> Known[tuple[Component, ...]]:
     reduced = tuple(smaller.convert(p) for p in substitution.apply(single))
     forbidden = frozenset(smaller.convert(p) for p in nonzero)
     premises = Premises()
-    pieces = premises.take(_refine(_System(smaller, reduced, forbidden, system.least, system.macaulay)))
+    pieces = premises.take(_refine(_System(smaller, reduced, forbidden, system.smallest, system.macaulay)))
     return premises.conclude(tuple(_lifted(piece, substitution.equation) for piece in pieces))
 
 
@@ -287,7 +287,7 @@ def _by_basis(system: _System) -> Known[tuple[Component, ...]]:
     if basis[0].is_constant:
         return premises.conclude(())
     dimension = len(independent_variables(leading_exponents(basis), len(system.ring.names)))
-    if dimension < system.least or any(premises.take(ideal.contains(p)) for p in system.nonzero):
+    if dimension < system.smallest or any(premises.take(ideal.contains(p)) for p in system.nonzero):
         return premises.conclude(())
     factored = factor_equations(basis, system.nonzero)
     if factored is None:
@@ -313,7 +313,7 @@ def _by_eliminant(system: _System, given: Known[Ideal], dimension: int) -> Known
     proven = premises.certainty == "proven"
     if len(ideal.generators) == 1:
         return premises.conclude((Component(ideal, proven, dimension, "Cohen-Macaulay"),))
-    found = premises.take(_analysed(ideal, system.macaulay and system.least == dimension))
+    found = premises.take(_analysed(ideal, system.macaulay and system.smallest == dimension))
     if found.factors and not any(premises.take(ideal.contains(f)) for f in found.factors):
         pieces = [p for f in found.factors for p in premises.take(_refine(system.plus(f)))]
         return premises.pass_on(_all_in_ring(pieces, system.ring))
@@ -339,8 +339,8 @@ def _smaller(
 ) -> Known[tuple[Component, ...]]:
     """Pieces that hold the zeros of an ideal outside its main part, all of them zeros of `beside`."""
     premises, found = Premises(), list[Component]()
-    # where the main part has the least dimension, what is smaller lies in other branches
-    for g in main.generators if main.dimension > system.least else ():
+    # where the main part has the smallest dimension, what is smaller lies in other branches
+    for g in main.generators if main.dimension > system.smallest else ():
         if premises.take(ideal.contains(g)):
             continue
         rest = _saturated(ideal, g)

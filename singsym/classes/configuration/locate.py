@@ -177,13 +177,13 @@ def locate(
             ends.append((problem.misfit(end), given, end))
     if not ends:
         return None
-    least = min(misfit for misfit, _, _ in ends)
-    near = [e for e in ends if e[0] <= max(1e-7, 1.5 * least)]
+    smallest = min(misfit for misfit, _, _ in ends)
+    near = [e for e in ends if e[0] <= max(1e-7, 1.5 * smallest)]
     near = [e for e in near if is_feasible(equation, e[2], problem.sizes)] or near
     misfit, given, point = min(near, key=lambda e: e[0])
     alike: list[Floats] = [point]
     for _, _, other in near:
-        if all(problem.distance(other, seen) > max(1e-4, 4 * least) for seen in alike):
+        if all(problem.distance(other, seen) > max(1e-4, 4 * smallest) for seen in alike):
             alike.append(other)
     rank = numerical_rank(problem.scaled_slopes(problem.both, point), 1e-6).rank
     found = Located(

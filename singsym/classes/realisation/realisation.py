@@ -404,11 +404,11 @@ def _counted(
     return _finite(piece, Known(_admitted(distinct, system, elsewhere), known))
 
 
-def _samples(system: RealSystem, away: Equations, borders: Equations) -> Known[tuple[RealPoint, ...]]:
+def _samples(system: RealSystem, nonzero: Equations, borders: Equations) -> Known[tuple[RealPoint, ...]]:
     """A point on each connected component of the zeros, and of those on one border, on two, and so on."""
     premises = Premises()
-    found = premises.take(sample_points(system.ring, system.closed_equations, nonzero=away))
+    found = premises.take(sample_points(system.ring, system.closed_equations, nonzero=nonzero))
     for k, border in enumerate(borders if found else ()):
         on_it = replace(system, equations=(*system.equations, border))
-        found = (*found, *premises.take(_samples(on_it, away, borders[k + 1 :])))
+        found = (*found, *premises.take(_samples(on_it, nonzero, borders[k + 1 :])))
     return premises.conclude(found)

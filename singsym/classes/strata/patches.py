@@ -80,14 +80,14 @@ def patches(
     >>> [p.generators for p in patches([x * y, x + z**2, z**2 - 1], [], R)]
     [(y, x + 1, z + 1), (y, x + 1, z - 1)]
     """
-    away = irreducible_factors(nonzero) or frozenset()
+    nonzero_factors = irreducible_factors(nonzero) or frozenset()
     waiting: list[tuple[tuple[Polynomial, ...], dict[str, Polynomial]]] = [(tuple(equations), {})]
     found: dict[frozenset[Polynomial], Patch] = {}
     budget = current()
     while waiting and len(waiting) + len(found) <= MOST_PATCHES:
         budget.check("splitting equations")
         equations, solved = waiting.pop()
-        factored = factor_equations(equations, away)
+        factored = factor_equations(equations, nonzero_factors)
         if factored is None:
             continue
         products = [f for f in factored if len(f) > 1]

@@ -78,15 +78,15 @@ class _Arm:
         self.limits: list[Limit] = []
         self.names: dict[str, str] = {}
         self.turn, self.shift = sympy.eye(3), sympy.zeros(3, 1)
-        self.taken: set[str] = set()
+        self.used: set[str] = set()
 
     def name(self, text: str) -> str:
-        """A name in the file format's alphabet, not yet taken."""
+        """A name in the file format's alphabet, not yet used."""
         clean = re.sub(r"[^A-Za-z0-9_]", "_", text)[: LONGEST_NAME - 10] or "_"
         clean = f"_{clean}" if not (clean[0].isalpha() or clean[0] == "_") or clean in RESERVED else clean
-        while clean in self.taken:
+        while clean in self.used:
             clean += "_"
-        self.taken.add(clean)
+        self.used.add(clean)
         return clean
 
     def add(self, joint: RobotJoint, held: Collection[str]) -> None:

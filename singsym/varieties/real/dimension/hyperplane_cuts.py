@@ -118,10 +118,10 @@ def stripped(ideal: Ideal, nonzero: Sequence[Polynomial]) -> Known[Ideal]:
     >>> stripped(Ideal(x.ring, (x * y, x**2 * y + x)), [x]).value.generators
     (1,)
     """
-    away, premises = irreducible_factors(nonzero), Premises()
+    nonzero_factors, premises = irreducible_factors(nonzero), Premises()
     while True:
         basis = premises.take(ideal.groebner_basis())
-        factored = None if away is None else factor_equations(basis, away)
+        factored = None if nonzero_factors is None else factor_equations(basis, nonzero_factors)
         if factored is None:
             return premises.conclude(Ideal(ideal.ring, (ideal.ring.one,)))
         products = []

@@ -83,8 +83,8 @@ def is_missed(
     ring = left[0].ring
     if _is_empty(ring, left):
         return _MISSED
-    away = [q for p in nonzero if not (q := p.substitute(dict(values))).is_constant]
-    return _MISSED if away and _is_empty(*without_zeros_of(ring, left, *away)) else _MET
+    not_constant = [q for p in nonzero if not (q := p.substitute(dict(values))).is_constant]
+    return _MISSED if not_constant and _is_empty(*without_zeros_of(ring, left, *not_constant)) else _MET
 
 
 def random_values(ring: Ring, names: tuple[str, ...], random: Random) -> Iterator[tuple[str, Polynomial]]:

@@ -148,8 +148,8 @@ def samples(system: RealSystem, equations: Sequence[Polynomial], seed: int, trie
             continue
         x = x[: len(ring.names)]
         # points that are not accurate, near a double root, come after others
-        least = 1e-3 if 2 * turn < tries else 1e-6
-        if all(float(np.max(np.abs(g.values(x)))) > least for g in excluded):
+        threshold = 1e-3 if 2 * turn < tries else 1e-6
+        if all(float(np.max(np.abs(g.values(x)))) > threshold for g in excluded):
             yield x
 
 
