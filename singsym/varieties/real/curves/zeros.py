@@ -76,7 +76,12 @@ def zeros_on(system: System, loop: Chain, polynomial: Polynomial, budget: Budget
 
 @lru_cache(maxsize=64)
 def _compiled(polynomial: Polynomial) -> System:
-    return System(polynomial.ring, (polynomial,))
+    found = System(polynomial.ring, (polynomial,))
+    try:
+        _ = found.map, found.derivative_map
+    except OverflowError as error:
+        raise Undecided(str(error)) from None
+    return found
 
 
 @np.errstate(all="ignore")

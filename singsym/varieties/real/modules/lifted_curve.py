@@ -197,7 +197,10 @@ def _traced(ring: Ring, equations: Equations, marks: Sequence[BoxPoint], budget:
     if not marks:
         return LiftedCurve(system, ())
     samples = Samples(ring.zero, (), boxed=tuple(marks))
-    edges = assemble(system, equations, samples, (), budget, prove=True).edges
+    try:
+        edges = assemble(system, equations, samples, (), budget, prove=True).edges
+    except OverflowError as error:
+        raise Undecided(str(error)) from None
     return LiftedCurve(system, tuple(edge.chain for edge in edges))
 
 
@@ -259,6 +262,8 @@ def _point_on(system: System, loop: Chain, place: int) -> tuple[BoxPoint, Polyno
 def _over(equations: Equations, balls: Mapping[str, arb]) -> BoxPoint:
     """The solution of equations that is known by these balls, in a box of its own."""
     names = equations[0].ring.names
+    if not all(value.is_finite() for value in balls.values()):
+        raise Undecided("a coordinate is not bounded")
     point = _certified(equations, [sum(exact_bounds(balls[n])) / 2 for n in names])
     if not all(box.contains(balls[n]) for n, box in zip(names, point.box, strict=True)):
         raise Undecided("the Krawczyk test fails at a point of a curve")

@@ -200,7 +200,7 @@ class _Solving:
         ):
             raise Undecided("the Krawczyk test fails for a part of a point")
         with attempt("a zero at a point", patience.FIRST_MODULE.work):
-            zeros = self.premises.take(real_points((*system, own.convert(p))))
+            zeros = self.premises.take(_exactly((*system, own.convert(p))))
             return any(_is_in(point, here) for point in zeros)
         raise Undecided("whether a polynomial is zero at a point is not found in time")
 
@@ -245,6 +245,8 @@ class _Partial:
 
 
 def _middle(value: arb) -> Fraction:
+    if not value.is_finite():
+        raise Undecided("a coordinate is not bounded")
     low, high = exact_bounds(value)
     return (low + high) / 2
 
@@ -264,12 +266,16 @@ def _alone(step: _Step, ring: Ring) -> Known[tuple[BoxPoint, ...]]:
     if many and is_tower(equations):
         return points_on_tower(equations, module_points, current())
     with attempt("the points of a module by algebra", patience.FIRST_MODULE.work):
-        try:
-            points = real_points(equations)
-            return points.map(lambda found: tuple(_boxed(point, equations) for point in found))
-        except NotZeroDimensional as reason:
-            raise Undecided(f"a module by itself: {reason}") from None
+        points = _exactly(equations)
+        return points.map(lambda found: tuple(_boxed(point, equations) for point in found))
     return points_on_tower(equations, module_points, current())
+
+
+def _exactly(equations: Equations) -> Known[tuple[RealPoint, ...]]:
+    try:
+        return real_points(equations)
+    except NotZeroDimensional as reason:
+        raise Undecided(f"a module by itself: {reason}") from None
 
 
 def _boxed(point: RealPoint, equations: Equations) -> BoxPoint:
