@@ -78,7 +78,7 @@ def zeros_on(system: System, loop: Chain, polynomial: Polynomial, budget: Budget
 def _compiled(polynomial: Polynomial) -> System:
     found = System(polynomial.ring, (polynomial,))
     try:
-        _ = found.map, found.derivative_map
+        _ = found.map
     except OverflowError as error:
         raise Undecided(str(error)) from None
     return found
