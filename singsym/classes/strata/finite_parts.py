@@ -79,7 +79,8 @@ def _rank(matrix: PolynomialMatrix, most: int, point: BoxPoint) -> int:
         minor = determinant(matrix.select(r, c))
         if minor and not any(point.is_known_zero(factor) for factor, _ in minor.factors()):
             raise Undecided("whether a minor is zero at a point is not seen")
-    if not _has_rank(matrix, len(rows), point, _BITS[-1]):
+    # of the same minor: another one that is not zero would not do
+    if rows and not _has_rank(matrix.select(rows, columns), len(rows), point, _BITS[-1]):
         raise Undecided("whether a minor is not zero at a point is not seen")
     return len(rows)
 

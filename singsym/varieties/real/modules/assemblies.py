@@ -56,7 +56,7 @@ class Dyad:
             [_value(row.get(m, zero), known) for m in ((1, 0), (0, 1), (0, 0))] for row in rows
         )
         scale = a * e - b * d
-        if scale.contains(0):
+        if scale.contains(0) or (self.pivot is not None and _value(self.pivot, known).contains(0)):
             raise Undecided("whether a dyad turns freely is not seen")
         return {x: (b * f - c * e) / scale, y: (c * d - a * f) / scale}
 

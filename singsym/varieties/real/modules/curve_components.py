@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from singsym.effort.budget import Budget, Undecided
-from singsym.polynomials import Equations
+from singsym.polynomials import Equations, Polynomial
 from singsym.polynomials.block_form import Module, with_last_modules
 from singsym.varieties.real.curves.arithmetic import System
 from singsym.varieties.real.curves.real_curve import real_curve
@@ -53,12 +53,18 @@ def components_off(equations: Equations, exclusions: Sequence[Equations], budget
     for module in dyads:
         curve = curve.lifted(module, ring, budget)
     points = [curve.point_on(loop) for loop in curve.loops]
-    return sum(not any(_lies_in(p, group) for group in exclusions) for p in points)
+    known = {p.primitive() for p in equations}
+    return sum(not any(_lies_in(p, group, known) for group in exclusions) for p in points)
 
 
-def _lies_in(point: BoxPoint, group: Equations) -> bool:
-    """Whether a component lies in an exclusion; `Undecided` where one of its points seems to.
+def _lies_in(point: BoxPoint, group: Equations, known: set[Polynomial]) -> bool:
+    """Whether the component of a point lies in an exclusion; `Undecided` where this is not seen.
 
-    A component of which a point is outside does not lie inside.
+    It does where all polynomials are among the curve's equations, and not where the point is outside.
     """
-    return all(point.sign(p) == 0 for p in group)
+    others = [p for p in group if p.primitive() not in known]
+    if any(point.sign(p) for p in others):
+        return False
+    if others:
+        raise Undecided("whether a component lies in an exclusion is not seen")
+    return True

@@ -12,14 +12,14 @@ from singsym.effort.verdict import Known, Premises
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Equations
 from singsym.polynomials.block_form import Module, with_last_modules
-from singsym.varieties.real.modules.assemblies import dyad
+from singsym.varieties.real.modules.assemblies import dyad, is_round
 
 
 def dimension_bound(equations: Equations) -> Known[int] | None:
-    """A bound of the dimension of the zeros, real or complex; `None` where it is not found.
+    """A bound of the dimension of the real zeros; `None` where it is not found.
 
-    Lemma: over a point of the core a dyad has finitely many solutions where not all coefficients of its line
-    vanish, nor the coefficient that the line was combined with.
+    Lemma: over a point of the core a dyad on a circle has two real solutions at most where not all
+    coefficients of its line vanish, nor the coefficient that the line was combined with.
 
     >>> from singsym.polynomials import Ring
     >>> c, s, x, y = Ring(("c", "s", "x", "y")).gens
@@ -45,7 +45,7 @@ def dimension_bound(equations: Equations) -> Known[int] | None:
 def _is_finite(module: Module, earlier: Equations, premises: Premises) -> bool:
     """Whether a dyad is seen to turn freely over no solution of the equations before it."""
     found = dyad(module)
-    if found is None or (found.pivot is not None and not found.pivot.is_constant):
+    if found is None or not is_round(module) or (found.pivot is not None and not found.pivot.is_constant):
         return False
     line = tuple(found.line.values())
     for known in ((), earlier):
