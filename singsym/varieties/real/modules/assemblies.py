@@ -53,10 +53,10 @@ class Dyad:
         rows = [_terms(p, x, y) for p in (self.line_equation, self.tangency)]
         zero = next(iter(self.conic.values())).ring.zero
         (a, b, c), (d, e, f) = (
-            [_value(row.get(m, zero), known) for m in ((1, 0), (0, 1), (0, 0))] for row in rows
+            [value_at(row.get(m, zero), known) for m in ((1, 0), (0, 1), (0, 0))] for row in rows
         )
         scale = a * e - b * d
-        if scale.contains(0) or (self.pivot is not None and _value(self.pivot, known).contains(0)):
+        if scale.contains(0) or (self.pivot is not None and value_at(self.pivot, known).contains(0)):
             raise Undecided("whether a dyad turns freely is not seen")
         return {x: (b * f - c * e) / scale, y: (c * d - a * f) / scale}
 
@@ -128,7 +128,7 @@ def assemblies(module: Module, known: Balls) -> list[dict[str, arb]]:
         (name,) = module.unknowns
         (equation,) = module.equations
         coefficients = [
-            _value(equation.coefficient(name, k), known) for k in range(equation.degree(name) + 1)
+            value_at(equation.coefficient(name, k), known) for k in range(equation.degree(name) + 1)
         ]
         return [{name: root} for root in real_roots_of(coefficients)]
     found = dyad(module)
@@ -180,10 +180,10 @@ def _terms(p: Polynomial, x: str, y: str) -> dict[tuple[int, int], Polynomial]:
 
 def _of_dyad(found: Dyad, known: Balls) -> list[dict[str, arb]]:
     """The common points of the line and the conic, by the unknown that the line gives best."""
-    if found.pivot is not None and _value(found.pivot, known).contains(0):
+    if found.pivot is not None and value_at(found.pivot, known).contains(0):
         raise Undecided("whether two circles of a dyad are one is not seen")
-    line = {m: _value(c, known) for m, c in found.line.items()}
-    conic = {m: _value(c, known) for m, c in found.conic.items()}
+    line = {m: value_at(c, known) for m, c in found.line.items()}
+    conic = {m: value_at(c, known) for m, c in found.conic.items()}
     a, b, c = (line.get(m, arb(0)) for m in ((1, 0), (0, 1), (0, 0)))
     turned = abs(a).abs_lower() > abs(b).abs_lower()
     if turned:
@@ -251,5 +251,7 @@ def _roots_of_quadratic(c: arb, b: arb, a: arb) -> list[arb]:
     return sorted(((-b + sign * root) / (2 * a) for sign in (-1, 1)), key=lambda r: float(r.mid()))
 
 
-def _value(coefficient: Polynomial, known: Balls) -> arb:
-    return evaluate(coefficient, [known.get(name, arb(0)) for name in coefficient.ring.names])
+def value_at(p: Polynomial, known: Balls) -> arb:
+    """A ball around the value of a polynomial: everything, where a variable of it is not known."""
+    unknown = arb("nan")
+    return evaluate(p, [known.get(name, unknown) for name in p.ring.names])

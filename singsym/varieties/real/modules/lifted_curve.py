@@ -25,9 +25,9 @@ from singsym.varieties.real.curves.paths import Chain
 from singsym.varieties.real.curves.tracking import kernels
 from singsym.varieties.real.curves.tubes import location
 from singsym.varieties.real.curves.zeros import zeros_on
-from singsym.varieties.real.modules.assemblies import Dyad, assemblies, dyad, is_circle, is_round
+from singsym.varieties.real.modules.assemblies import Dyad, assemblies, dyad, is_circle, is_round, value_at
 from singsym.varieties.real.points.boxed_point import BoxPoint, boxed_point
-from singsym.varieties.real.points.intervals import at_precision, ball, evaluate, exact_bounds
+from singsym.varieties.real.points.intervals import at_precision, ball, exact_bounds
 
 _BITS = 256
 
@@ -209,7 +209,7 @@ def _on_circle(equations: Equations, base: tuple[str, str], known: dict[str, arb
     circle, (x, y) = equations[-1], base
     parts = (circle.coefficient(x, i).coefficient(y, j) for i, j in ((2, 0), (1, 0), (0, 1), (0, 0)))
     with at_precision(_BITS + 64):
-        a, b, c, d = (_value(p, known) for p in parts)
+        a, b, c, d = (value_at(p, known) for p in parts)
         square = (b * b + c * c) / (4 * a * a) - d / a
         if square < 0:
             return
@@ -275,7 +275,3 @@ def _certified(equations: Equations, near: Sequence[float | Fraction]) -> BoxPoi
     if point is None:
         raise Undecided("the Krawczyk test fails at a point of a curve")
     return point
-
-
-def _value(p: Polynomial, known: Mapping[str, arb]) -> arb:
-    return evaluate(p, [known.get(name, arb(0)) for name in p.ring.names])

@@ -22,12 +22,12 @@ from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.elimination.memo import remember
 from singsym.polynomials import Equations, Polynomial, Ring
 from singsym.polynomials.block_form import BlockForm, Module, block_form
-from singsym.varieties.real.modules.assemblies import assemblies, dyad, is_simple
+from singsym.varieties.real.modules.assemblies import assemblies, dyad, is_simple, value_at
 from singsym.varieties.real.modules.lifted_curve import is_tower, points_on_tower
 from singsym.varieties.real.points.boxed_point import BoxPoint, boxed_point
 from singsym.varieties.real.points.exact_point import RealPoint
 from singsym.varieties.real.points.finite_sets import real_points
-from singsym.varieties.real.points.intervals import at_precision, evaluate, exact_bounds
+from singsym.varieties.real.points.intervals import at_precision, exact_bounds
 
 PRECISIONS = (256, 1024)
 """Bits of the balls of a first module, tried in turn where something is not seen."""
@@ -134,11 +134,16 @@ class _Solving:
                 loose |= set(module.unknowns)
                 continue
             alone = constants.issuperset(module.parents)
-            step = _Step((module,), alone)
-            if not alone and not is_simple(module):
-                step = _Step((*self.form.ancestors(module), module), True)
-                steps = [other for other in steps if not step.unknowns & other.unknowns]
-            steps.append(step)
+            if alone or is_simple(module):
+                steps.append(_Step((module,), alone))
+                continue
+            group = _Step((*self.form.ancestors(module), module), True)
+            inside = [k for k, step in enumerate(steps) if step.unknowns & group.unknowns]
+            if any(not steps[k].unknowns <= group.unknowns for k in inside):
+                raise Undecided("two modules that are not simple have ancestors in common")
+            # what stands between its parts may need them, and none of these needs what stands there
+            steps[inside[0] : inside[0]] = [group]
+            steps = [step for step in steps if step is group or not step.unknowns & group.unknowns]
         return tuple(steps)
 
     def points(self, bits: int) -> Iterator[BoxPoint]:
@@ -252,8 +257,7 @@ def _middle(value: arb) -> Fraction:
 
 
 def _may_vanish(p: Polynomial, known: Mapping[str, arb]) -> bool:
-    value: arb = evaluate(p, [known.get(name, arb(0)) for name in p.ring.names])
-    return bool(value.contains(0))
+    return bool(value_at(p, known).contains(0))
 
 
 def _alone(step: _Step, ring: Ring) -> Known[tuple[BoxPoint, ...]]:

@@ -53,3 +53,8 @@ def test_real_roots_of_a_cubic() -> None:
     assert len(real_roots_of([arb(-1), arb(0), arb(0), arb(1)])) == 1
     with pytest.raises(Undecided):
         real_roots_of([arb(1), arb(-2), arb(1)])
+
+
+def test_a_parent_without_a_value_may_have_any() -> None:
+    with pytest.raises(Undecided):
+        assemblies(CIRCLES, {"a": arb(6)})

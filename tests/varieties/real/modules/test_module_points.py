@@ -58,3 +58,14 @@ def test_two_assemblies_that_are_one() -> None:
     assert point.sign((U - 10) ** 2 + V**2 - 9) == 0
     with pytest.raises(Undecided):
         module_points((*crank, (U - C) ** 2 + (V - S) ** 2 - 16, (U - 10) ** 2 + V**2 - 9, X - U, Y - V))
+
+
+def test_a_hard_module_is_solved_with_all_that_it_needs_and_before_what_needs_that() -> None:
+    """y hangs on c alone, and is listed before the hard module (u, v) over c: the same as by algebra."""
+    small = Ring(("c", "y", "u", "v"))
+    c, y, u, v = small.gens
+    system = (c**2 - 2, y - c - 1, u**3 + v - c, u * v - 1)
+    found = sorted(p.floats for p in module_points(system).value)
+    exact = sorted(p.floats for p in real_points(system).value)
+    assert len(found) == len(exact) > 0
+    assert all(a == pytest.approx(b, abs=1e-9) for a, b in zip(found, exact, strict=True))
