@@ -253,5 +253,6 @@ def _roots_of_quadratic(c: arb, b: arb, a: arb) -> list[arb]:
 
 def value_at(p: Polynomial, known: Balls) -> arb:
     """A ball around the value of a polynomial: everything, where a variable of it is not known."""
-    unknown = arb("nan")
-    return evaluate(p, [known.get(name, unknown) for name in p.ring.names])
+    if not known.keys() >= set(p.variables):
+        return arb("nan")
+    return evaluate(p, [known.get(name, arb(0)) for name in p.ring.names])
