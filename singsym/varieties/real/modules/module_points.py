@@ -33,7 +33,7 @@ PRECISIONS = (256, 1024)
 """Bits of the balls of a first module, tried in turn where something is not seen."""
 
 MOST_SOLUTIONS = 1000
-"""A first module with a larger bound of Bezout is not solved by algebra where it is a tower."""
+"""A module by itself with a larger bound of Bezout is not solved by algebra; it may be a tower."""
 
 
 def module_points(equations: Equations) -> Known[tuple[BoxPoint, ...]]:
@@ -266,9 +266,11 @@ def _alone(step: _Step, ring: Ring) -> Known[tuple[BoxPoint, ...]]:
     own = ring.with_names(tuple(n for n in ring.names if n in names))
     given = (own.convert(p) for m in step.modules for p in m.equations)
     equations = tuple(dict.fromkeys((*given, *own.relations)))
-    many = len(step.modules) > 1 or prod(p.total_degree for p in equations) > MOST_SOLUTIONS
-    if many and is_tower(equations):
+    many = prod(p.total_degree for p in equations if p not in own.relations) > MOST_SOLUTIONS
+    if (many or len(step.modules) > 1) and is_tower(equations):
         return points_on_tower(equations, module_points, current())
+    if many:
+        raise Undecided("a module by itself may have too many complex points")
     with attempt("the points of a module by algebra", patience.FIRST_MODULE.work):
         points = _exactly(equations)
         return points.map(lambda found: tuple(_boxed(point, equations) for point in found))
