@@ -13,6 +13,7 @@ from itertools import combinations, islice
 import networkx
 
 from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
+from singsym.polynomials.block_form import ordered_components
 
 Block = tuple[tuple[int, ...], tuple[int, ...]]
 
@@ -72,24 +73,18 @@ def block_triangular(matrix: PolynomialMatrix) -> BlockForm:
     matching = networkx.bipartite.hopcroft_karp_matching(graph, top_nodes=row_nodes)
     tall = _alternating(graph, matching, [r for r in row_nodes if r not in matching])
     wide = _alternating(graph, matching, [c for c in column_nodes if c not in matching])
-    middle = networkx.DiGraph()
-    for row in row_nodes:
-        if row in tall or row in wide:
-            continue
-        middle.add_node(row)
-        middle.add_edges_from(
-            (row, matching[column])
-            for column in graph[row]
-            if column not in wide and column not in tall and matching[column] != row
-        )
-    condensed = networkx.condensation(middle)
-    square = []
-    keys = {c: min(i for _, i in condensed.nodes[c]["members"]) for c in condensed}
-    for component in networkx.lexicographical_topological_sort(condensed, key=keys.__getitem__):
-        members = sorted(condensed.nodes[component]["members"])
-        columns = sorted(matching[row][1] for row in members)
-        square.append((tuple(i for _, i in members), tuple(columns)))
-    return BlockForm(_block(wide), tuple(square), _block(tall))
+    middle = [row for row in row_nodes if row not in tall and row not in wide]
+    edges = (
+        (row[1], matching[column][1])
+        for row in middle
+        for column in graph[row]
+        if column not in wide and column not in tall
+    )
+    square = tuple(
+        (tuple(rows), tuple(sorted(matching["row", i][1] for i in rows)))
+        for rows in ordered_components((i for _, i in middle), edges)
+    )
+    return BlockForm(_block(wide), square, _block(tall))
 
 
 def _alternating(

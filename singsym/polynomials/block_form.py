@@ -6,7 +6,7 @@ Computing the block triangular form of a sparse matrix, ACM Trans. Math. Softw. 
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -28,7 +28,7 @@ class Module:
 
 
 @dataclass(frozen=True)
-class BlockForm:
+class SolvingOrder:
     """Modules in an order in which they can be solved, and the equations that are left over.
 
     free: the unknowns that no equation was left to determine.
@@ -49,7 +49,7 @@ class BlockForm:
         return tuple(reversed(found))
 
 
-def block_form(equations: Sequence[Polynomial], given: Collection[str] = ()) -> BlockForm:
+def block_form(equations: Sequence[Polynomial], given: Collection[str] = ()) -> SolvingOrder:
     """The modules of equations in all their variables but the given ones.
 
     Where a choice is, equations that come first are matched first; those that find no unknown of their own
@@ -65,18 +65,28 @@ def block_form(equations: Sequence[Polynomial], given: Collection[str] = ()) -> 
     names = {k: [n for n in p.variables if n not in given] for k, p in enumerate(equations)}
     owner = _matching(names)
     unknown_of = {k: name for name, k in owner.items()}
+    needs = ((owner[name], k) for k in unknown_of for name in names[k] if name in owner)
+    modules = tuple(_module(equations, own, unknown_of) for own in ordered_components(unknown_of, needs))
+    left_over = tuple(p for k, p in enumerate(equations) if k not in unknown_of)
+    everything = dict.fromkeys(name for own in names.values() for name in own)
+    return SolvingOrder(modules, left_over, tuple(name for name in everything if name not in owner))
+
+
+def ordered_components(nodes: Iterable[int], edges: Iterable[tuple[int, int]]) -> list[list[int]]:
+    """The strongly connected components of a graph, each sorted, and each before those that it leads to.
+
+    Where a choice is, the component with the smallest node comes first.
+
+    >>> ordered_components([0, 1, 2, 3], [(3, 2), (2, 3), (3, 0)])
+    [[1], [2, 3], [0]]
+    """
     graph: Any = nx.DiGraph()
-    graph.add_nodes_from(unknown_of)
-    graph.add_edges_from(
-        (owner[name], k) for k in unknown_of for name in names[k] if name in owner and owner[name] != k
-    )
+    graph.add_nodes_from(nodes)
+    graph.add_edges_from(edges)
     condensed: Any = nx.condensation(graph)
     members = {c: sorted(data["members"]) for c, data in condensed.nodes(data=True)}
     order = nx.lexicographical_topological_sort(condensed, key=lambda c: members[c][0])
-    modules = tuple(_module(equations, members[c], unknown_of) for c in order)
-    left_over = tuple(p for k, p in enumerate(equations) if k not in unknown_of)
-    everything = dict.fromkeys(name for own in names.values() for name in own)
-    return BlockForm(modules, left_over, tuple(name for name in everything if name not in owner))
+    return [members[c] for c in order]
 
 
 def with_last_modules(

@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 import sympy
 
-from singsym.kinematics.dimensions import dimensions
+from singsym.kinematics.dimensions import Sized, dimensions
 from singsym.kinematics.formulations.frames import Algebra, rigid
 from singsym.kinematics.formulations.local import Geometry
-from singsym.kinematics.formulations.tree import by_branch, grow, plan, spanning_steps
+from singsym.kinematics.formulations.tree import Grown, by_branch, grow, plan, spanning_steps
 from singsym.mechanism import load
 from singsym.mechanism.model import Joint, JointKind, JointRate, Link, Mechanism, Space
 
@@ -50,14 +50,19 @@ def test_angles_add_up_along_parallel_axes_only(
     assert [step.variables for step in steps] == names
 
 
-def test_where_the_links_of_a_planar_arm_come_to_be() -> None:
-    """The tip of two links is at (c1 + c12, s1 + s12, 0), and J2 turns by the difference of the angles."""
-    mechanism = arm(UP, UP)
+def grown_arm(mechanism: Mechanism) -> tuple[Geometry, Sized, Grown]:
+    """The arm with angles added up along parallel axes, grown from the ground."""
     geometry = Geometry(mechanism)
     steps = plan(mechanism, geometry, spanning_steps(mechanism), True)
     sized = dimensions(mechanism, [v for step in steps for v in step.variables])
     algebra = Algebra(sized.ring, sized.number)
-    grown = grow(geometry, algebra, {"ground": rigid(algebra, algebra.origin, algebra.axes)}, steps)
+    ground = {"ground": rigid(algebra, algebra.origin, algebra.axes)}
+    return geometry, sized, grow(geometry, algebra, ground, steps)
+
+
+def test_where_the_links_of_a_planar_arm_come_to_be() -> None:
+    """The tip of two links is at (c1 + c12, s1 + s12, 0), and J2 turns by the difference of the angles."""
+    geometry, sized, grown = grown_arm(arm(UP, UP))
     c1, s1, c12, s12 = sized.ring.gens
     tip = grown.bodies["link2"].point(geometry.point("link2", "to"))
     assert tip == (c1 + c12, s1 + s12, sized.ring.zero)
@@ -68,12 +73,7 @@ def test_where_the_links_of_a_planar_arm_come_to_be() -> None:
 
 def test_an_opposite_axis_turns_the_other_way() -> None:
     """About z the second link is turned by q1 - q2, cosine c and sine s: sin q2 = s1 c - c1 s."""
-    mechanism = arm(UP, DOWN)
-    geometry = Geometry(mechanism)
-    steps = plan(mechanism, geometry, spanning_steps(mechanism), True)
-    sized = dimensions(mechanism, [v for step in steps for v in step.variables])
-    algebra = Algebra(sized.ring, sized.number)
-    grown = grow(geometry, algebra, {"ground": rigid(algebra, algebra.origin, algebra.axes)}, steps)
+    _, sized, grown = grown_arm(arm(UP, DOWN))
     c1, s1, c, s = sized.ring.gens
     second = grown.values["J2"]
     assert (second.cosine, second.sine) == (c1 * c + s1 * s, s1 * c - c1 * s)

@@ -13,6 +13,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from singsym.effort.budget import Undecided
 from singsym.polynomials import Polynomial, Ring
 from singsym.polynomials.compiled_map import CompiledMap, MonomialTable
 
@@ -238,7 +239,5 @@ def _expansion(equation: Polynomial) -> dict[tuple[int, ...], Polynomial]:
 def _to_float(number: Fraction) -> float:
     value = float(number)
     if value and abs(value) < 1e-250:
-        raise OverflowError(
-            f"coefficients differ by more than 250 orders of magnitude ({value:g} after scaling)"
-        )
+        raise Undecided(f"coefficients differ by more than 250 orders of magnitude ({value:g} after scaling)")
     return value

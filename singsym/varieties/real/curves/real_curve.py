@@ -166,11 +166,8 @@ def _solved(
         if samples is None:
             reason = "the critical points are not isolated: the equations are not reduced, or not of a curve"
             continue
-        try:
-            topology = _topology(choice.equations, samples, seed, budget, drawing)
-            return _result(ring, topology, known, drawing)
-        except OverflowError as error:
-            raise Undecided(str(error)) from None
+        topology = _topology(choice.equations, samples, seed, budget, drawing)
+        return _result(ring, topology, known, drawing)
     raise Undecided(reason)
 
 

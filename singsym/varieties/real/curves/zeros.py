@@ -76,12 +76,7 @@ def zeros_on(system: System, loop: Chain, polynomial: Polynomial, budget: Budget
 
 @lru_cache(maxsize=64)
 def _compiled(polynomial: Polynomial) -> System:
-    found = System(polynomial.ring, (polynomial,))
-    try:
-        _ = found.map
-    except OverflowError as error:
-        raise Undecided(str(error)) from None
-    return found
+    return System(polynomial.ring, (polynomial,))
 
 
 @np.errstate(all="ignore")

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from itertools import combinations
 
 from flint import acb, arb, arb_poly
@@ -23,6 +23,8 @@ Balls = Mapping[str, arb]
 """Values by name."""
 _SECOND = ((2, 0), (1, 1), (0, 2))
 """The exponents of the terms of second degree in two unknowns."""
+_LINEAR = ((1, 0), (0, 1), (0, 0))
+"""Those of the others of a conic."""
 Terms = Mapping[tuple[int, int], Polynomial]
 """A polynomial in two unknowns, its coefficients in the parents, by exponents."""
 
@@ -40,9 +42,13 @@ class Dyad:
     pivot: Polynomial | None
 
     @property
+    def _ring(self) -> Ring:
+        return next(iter(self.conic.values())).ring
+
+    @cached_property
     def line_equation(self) -> Polynomial:
         """The line as a polynomial."""
-        return _joined(self.line, next(iter(self.conic.values())).ring, self.unknowns)
+        return _joined(self.line, self._ring, self.unknowns)
 
     def touching(self, known: Balls) -> dict[str, arb]:
         """The point where the line touches the conic, over parents at which the discriminant is zero.
@@ -51,31 +57,29 @@ class Dyad:
         """
         x, y = self.unknowns
         rows = [_terms(p, x, y) for p in (self.line_equation, self.tangency)]
-        zero = next(iter(self.conic.values())).ring.zero
-        (a, b, c), (d, e, f) = (
-            [value_at(row.get(m, zero), known) for m in ((1, 0), (0, 1), (0, 0))] for row in rows
-        )
+        zero = self._ring.zero
+        (a, b, c), (d, e, f) = ([value_at(row.get(m, zero), known) for m in _LINEAR] for row in rows)
         scale = a * e - b * d
         if scale.contains(0) or (self.pivot is not None and value_at(self.pivot, known).contains(0)):
             raise Undecided("whether a dyad turns freely is not seen")
         return {x: (b * f - c * e) / scale, y: (c * d - a * f) / scale}
 
-    @property
+    @cached_property
     def tangency(self) -> Polynomial:
         """Zero where the line touches the conic: the functional determinant of both."""
-        ring, (x, y) = next(iter(self.conic.values())).ring, self.unknowns
-        conic, line = (_joined(terms, ring, self.unknowns) for terms in (self.conic, self.line))
+        x, y = self.unknowns
+        conic, line = _joined(self.conic, self._ring, self.unknowns), self.line_equation
         return conic.derivative(x) * line.derivative(y) - conic.derivative(y) * line.derivative(x)
 
-    @property
+    @cached_property
     def discriminant(self) -> Polynomial:
         """Positive where line and conic meet in two real points, zero where they touch, in the parents.
 
         The determinant of the conic's matrix bordered by the line: less that of the form on the line.
         """
-        zero = next(iter(self.conic.values())).ring.zero
-        f = {m: self.conic.get(m, zero) for m in (*_SECOND, (1, 0), (0, 1), (0, 0))}
-        a, b, c = (self.line.get(m, zero) for m in ((1, 0), (0, 1), (0, 0)))
+        zero = self._ring.zero
+        f = {m: self.conic.get(m, zero) for m in (*_SECOND, *_LINEAR)}
+        a, b, c = (self.line.get(m, zero) for m in _LINEAR)
         rows = (
             (2 * f[2, 0], f[1, 1], f[1, 0], a),
             (f[1, 1], 2 * f[0, 2], f[0, 1], b),
@@ -184,7 +188,7 @@ def _of_dyad(found: Dyad, known: Balls) -> list[dict[str, arb]]:
         raise Undecided("whether two circles of a dyad are one is not seen")
     line = {m: value_at(c, known) for m, c in found.line.items()}
     conic = {m: value_at(c, known) for m, c in found.conic.items()}
-    a, b, c = (line.get(m, arb(0)) for m in ((1, 0), (0, 1), (0, 0)))
+    a, b, c = (line.get(m, arb(0)) for m in _LINEAR)
     turned = abs(a).abs_lower() > abs(b).abs_lower()
     if turned:
         a, b = b, a

@@ -9,18 +9,12 @@ from collections.abc import Sequence
 
 from singsym.effort.budget import Budget, Undecided
 from singsym.polynomials import Equations, Polynomial
-from singsym.polynomials.block_form import Module, with_last_modules
+from singsym.polynomials.block_form import with_last_modules
 from singsym.varieties.real.curves.arithmetic import System
 from singsym.varieties.real.curves.real_curve import real_curve
 from singsym.varieties.real.modules.assemblies import is_round
 from singsym.varieties.real.modules.lifted_curve import LiftedCurve
 from singsym.varieties.real.points.boxed_point import BoxPoint
-
-
-def core_and_dyads(equations: Equations) -> tuple[Equations, tuple[Module, ...]] | None:
-    """The equations of a curve in few variables, and the dyads over it; `None` where there are none."""
-    core, last = with_last_modules(equations, 2)
-    return (core, last) if core and last and all(map(is_round, last)) else None
 
 
 def components_off(equations: Equations, exclusions: Sequence[Equations], budget: Budget) -> int:
@@ -35,10 +29,9 @@ def components_off(equations: Equations, exclusions: Sequence[Equations], budget
     >>> components_off(four_bar, (), Budget()), components_off(four_bar, ((y,), (c, s)), Budget())
     (2, 2)
     """
-    parts = core_and_dyads(equations)
-    if parts is None:
+    core, dyads = with_last_modules(equations, 2)
+    if not core or not dyads or not all(map(is_round, dyads)):
         raise Undecided("the curve has no dyads that come last")
-    core, dyads = parts
     ring = equations[0].ring
     below = ring.with_names(tuple(n for n in ring.names if any(n in p.variables for p in core)))
     if len(core) != len(below.names) - 1:

@@ -6,9 +6,10 @@ sheets where the dyad's discriminant is positive, none where it is negative, joi
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import lru_cache
 from itertools import combinations
 
 import numpy as np
@@ -26,8 +27,8 @@ from singsym.varieties.real.curves.tracking import kernels
 from singsym.varieties.real.curves.tubes import location
 from singsym.varieties.real.curves.zeros import zeros_on
 from singsym.varieties.real.modules.assemblies import Dyad, assemblies, dyad, is_circle, is_round, value_at
-from singsym.varieties.real.points.boxed_point import BoxPoint, boxed_point
-from singsym.varieties.real.points.intervals import at_precision, ball, exact_bounds
+from singsym.varieties.real.points.boxed_point import BoxPoint, box_around, boxed_point
+from singsym.varieties.real.points.intervals import at_precision, ball
 
 _BITS = 256
 
@@ -143,7 +144,7 @@ def points_on_tower(equations: Equations, solve: Solver, budget: Budget) -> Know
     >>> [p.decimals(3)["x"] for p in found.value]
     ['1.50', '1.50', '3.50', '3.50']
     """
-    first = next(_with_one_more(equations), None)
+    first = _with_one_more(equations)
     if first is None:
         raise Undecided("the equations are not a curve of dyads over a circle, and one more")
     found, last = first
@@ -153,14 +154,16 @@ def points_on_tower(equations: Equations, solve: Solver, budget: Budget) -> Know
 
 def is_tower(equations: Equations) -> bool:
     """Whether equations are a circle with dyads over it, and one more."""
-    return next(_with_one_more(equations), None) is not None
+    return _with_one_more(equations) is not None
 
 
-def _with_one_more(equations: Equations) -> Iterator[tuple[Tower, Polynomial]]:
-    """Each way to see them so, with the equation that is left out; long ones are left out first."""
+@lru_cache(maxsize=256)
+def _with_one_more(equations: Equations) -> tuple[Tower, Polynomial] | None:
+    """A way to see them so, with the equation that is left out; long ones are left out first."""
     for last in sorted(equations, key=len, reverse=True):
         for found in towers([p for p in equations if p is not last]):
-            yield found, last
+            return found, last
+    return None
 
 
 def lifted_curves(found: Tower, solve: Solver, budget: Budget) -> Known[tuple[LiftedCurve, ...]]:
@@ -197,10 +200,7 @@ def _traced(ring: Ring, equations: Equations, marks: Sequence[BoxPoint], budget:
     if not marks:
         return LiftedCurve(system, ())
     samples = Samples(ring.zero, (), boxed=tuple(marks))
-    try:
-        edges = assemble(system, equations, samples, (), budget, prove=True).edges
-    except OverflowError as error:
-        raise Undecided(str(error)) from None
+    edges = assemble(system, equations, samples, (), budget, prove=True).edges
     return LiftedCurve(system, tuple(edge.chain for edge in edges))
 
 
@@ -219,7 +219,7 @@ def _on_circle(equations: Equations, base: tuple[str, str], known: dict[str, arb
         height = Fraction(float((middle + square.sqrt() / 4).mid())).limit_denominator(1000)
         across = -b / (2 * a) + (square - (ball(height) - middle) ** 2).sqrt()
         values = {**known, x: across, y: ball(height)}
-    yield _over((*equations, circle.ring.gen(y) - height), values)
+    yield box_around((*equations, circle.ring.gen(y) - height), values)
 
 
 def _touching(base: BoxPoint, found: Dyad, equations: Equations) -> BoxPoint:
@@ -228,7 +228,7 @@ def _touching(base: BoxPoint, found: Dyad, equations: Equations) -> BoxPoint:
     with at_precision(_BITS + 64):
         known = dict(zip(base.ring.names, fine.box, strict=True))
         known |= found.touching(known)
-    return _over(equations, known)
+    return box_around(equations, known)
 
 
 def _sheets(
@@ -241,7 +241,7 @@ def _sheets(
     with at_precision(_BITS + 64):
         known = dict(zip(base.ring.names, fine.box, strict=True))
         over = [{**known, **found} for found in assemblies(module, known)]
-    return [_over((*equations, equations[0].ring.convert(held)), balls) for balls in over]
+    return [box_around((*equations, equations[0].ring.convert(held)), balls) for balls in over]
 
 
 def _point_on(system: System, loop: Chain, place: int) -> tuple[BoxPoint, Polynomial]:
@@ -251,27 +251,10 @@ def _point_on(system: System, loop: Chain, place: int) -> tuple[BoxPoint, Polyno
     fastest = int(along.argmax())
     level = Fraction(float(vertex[fastest])).limit_denominator(10**6)
     held = system.ring.gens[fastest] - level
-    point = _certified((*system.equations, held), [float(v) for v in vertex])
-    assert loop.tubes is not None
+    point = boxed_point(system.ring, (*system.equations, held), {}, [float(v) for v in vertex])
+    if point is None or loop.tubes is None:
+        raise Undecided("the Krawczyk test fails at a point of a curve")
     inside, _ = location(loop.tubes, as_balls([point], len(system.ring.names)))
     if not inside.any():
         raise Undecided("a point of a curve is not proven to be on its loop")
     return point, held
-
-
-def _over(equations: Equations, balls: Mapping[str, arb]) -> BoxPoint:
-    """The solution of equations that is known by these balls, in a box of its own."""
-    names = equations[0].ring.names
-    if not all(value.is_finite() for value in balls.values()):
-        raise Undecided("a coordinate is not bounded")
-    point = _certified(equations, [sum(exact_bounds(balls[n])) / 2 for n in names])
-    if not all(box.contains(balls[n]) for n, box in zip(names, point.box, strict=True)):
-        raise Undecided("the Krawczyk test fails at a point of a curve")
-    return point
-
-
-def _certified(equations: Equations, near: Sequence[float | Fraction]) -> BoxPoint:
-    point = boxed_point(equations[0].ring, equations, {}, near)
-    if point is None:
-        raise Undecided("the Krawczyk test fails at a point of a curve")
-    return point

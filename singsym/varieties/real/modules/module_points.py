@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from fractions import Fraction
 from functools import cached_property
 from math import prod
 
@@ -21,13 +20,13 @@ from singsym.effort.verdict import Known, Premises, Verdict
 from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.elimination.memo import remember
 from singsym.polynomials import Equations, Polynomial, Ring
-from singsym.polynomials.block_form import BlockForm, Module, block_form
+from singsym.polynomials.block_form import Module, SolvingOrder, block_form
 from singsym.varieties.real.modules.assemblies import assemblies, dyad, is_simple, value_at
 from singsym.varieties.real.modules.lifted_curve import is_tower, points_on_tower
-from singsym.varieties.real.points.boxed_point import BoxPoint, boxed_point
+from singsym.varieties.real.points.boxed_point import BoxPoint, box_around
 from singsym.varieties.real.points.exact_point import RealPoint
 from singsym.varieties.real.points.finite_sets import real_points
-from singsym.varieties.real.points.intervals import at_precision, exact_bounds
+from singsym.varieties.real.points.intervals import at_precision
 
 PRECISIONS = (256, 1024)
 """Bits of the balls of a first module, tried in turn where something is not seen."""
@@ -120,7 +119,7 @@ class _Solving:
     """
 
     ring: Ring
-    form: BlockForm
+    form: SolvingOrder
     solved: dict[_Step, tuple[BoxPoint, ...]] = field(default_factory=dict)
     premises: Premises = field(default_factory=Premises)
 
@@ -151,7 +150,7 @@ class _Solving:
         for found in self._extended(self.steps, _Partial(), self.form.left_over, bits):
             if len(found.values) < len(self.ring.names):
                 raise Undecided("there are fewer equations than unknowns")
-            yield found.certified(self.ring)
+            yield found.certified
 
     def _extended(
         self, steps: Sequence[_Step], known: _Partial, left_over: Sequence[Polynomial], bits: int
@@ -177,9 +176,8 @@ class _Solving:
             if step not in self.solved:
                 self.solved[step] = self.premises.take(_alone(step, self.ring))
             for point in self.solved[step]:
-                values = dict(zip(point.ring.names, point.refine(bits).box, strict=True))
                 equations, zeros = (tuple(map(self.ring.convert, g)) for g in (point.equations, point.zeros))
-                yield replace(known, zeros=(*known.zeros, *zeros)).plus(values, equations)
+                yield replace(known, zeros=(*known.zeros, *zeros)).plus(_balls(point, bits), equations)
             return
         module = step.modules[-1]
         found = dyad(module)
@@ -199,11 +197,7 @@ class _Solving:
             tuple(n for n in self.ring.names if any(n in e.variables for e in equations))
         )
         system = tuple(map(own.convert, equations))
-        here = boxed_point(own, system, {}, [_middle(known.values[n]) for n in own.names])
-        if here is None or not all(
-            b.contains(known.values[n]) for n, b in zip(own.names, here.box, strict=True)
-        ):
-            raise Undecided("the Krawczyk test fails for a part of a point")
+        here = box_around(system, known.values)
         with attempt("a zero at a point", patience.FIRST_MODULE.work):
             zeros = self.premises.take(_exactly((*system, own.convert(p))))
             return any(_is_in(point, here) for point in zeros)
@@ -240,20 +234,10 @@ class _Partial:
                 found += module.equations
         return tuple(found)
 
-    def certified(self, ring: Ring) -> BoxPoint:
+    @property
+    def certified(self) -> BoxPoint:
         """The whole point in a box of its own."""
-        balls = [self.values[name] for name in ring.names]
-        point = boxed_point(ring, self.equations, {}, [_middle(b) for b in balls])
-        if point is None or not all(b.contains(a) for a, b in zip(balls, point.box, strict=True)):
-            raise Undecided("the Krawczyk test fails at a point found by modules")
-        return replace(point, zeros=self.zeros)
-
-
-def _middle(value: arb) -> Fraction:
-    if not value.is_finite():
-        raise Undecided("a coordinate is not bounded")
-    low, high = exact_bounds(value)
-    return (low + high) / 2
+        return replace(box_around(self.equations, self.values), zeros=self.zeros)
 
 
 def _may_vanish(p: Polynomial, known: Mapping[str, arb]) -> bool:
@@ -273,7 +257,7 @@ def _alone(step: _Step, ring: Ring) -> Known[tuple[BoxPoint, ...]]:
         raise Undecided("a module by itself may have too many complex points")
     with attempt("the points of a module by algebra", patience.FIRST_MODULE.work):
         points = _exactly(equations)
-        return points.map(lambda found: tuple(_boxed(point, equations) for point in found))
+        return points.map(lambda found: tuple(box_around(equations, _balls(p, 96)) for p in found))
     return points_on_tower(equations, module_points, current())
 
 
@@ -284,8 +268,5 @@ def _exactly(equations: Equations) -> Known[tuple[RealPoint, ...]]:
         raise Undecided(f"a module by itself: {reason}") from None
 
 
-def _boxed(point: RealPoint, equations: Equations) -> BoxPoint:
-    found = boxed_point(point.ring, equations, {}, point.floats)
-    if found is None or not _is_in(point, found):
-        raise Undecided("the Krawczyk test fails at a point of a first module")
-    return found
+def _balls(point: RealPoint | BoxPoint, bits: int) -> dict[str, arb]:
+    return dict(zip(point.ring.names, point.refine(bits).box, strict=True))

@@ -155,6 +155,25 @@ def boxed_point(
     return _sharpened(ring, tuple(equations), unknowns, middles, 64)
 
 
+def box_around(equations: Sequence[Polynomial], balls: Mapping[str, arb]) -> BoxPoint:
+    """The solution that is known by balls, in a box of its own that holds them.
+
+    equations: as many as their ring has names.  Raises `Undecided` where the Krawczyk test does not show it.
+
+    >>> R = Ring(("x",))
+    >>> (x,) = R.gens
+    >>> box_around([x**2 - 4], {"x": ball(2)})
+    BoxPoint(x=2.00000)
+    """
+    ring = equations[0].ring
+    known = [balls[name] for name in ring.names]
+    if all(value.is_finite() for value in known):
+        point = boxed_point(ring, equations, {}, [sum(exact_bounds(value)) / 2 for value in known])
+        if point is not None and all(b.contains(a) for a, b in zip(known, point.box, strict=True)):
+            return point
+    raise Undecided("the Krawczyk test fails at a point that is known by balls")
+
+
 def _sharpened(
     ring: Ring,
     equations: tuple[Polynomial, ...],
