@@ -192,6 +192,8 @@ class _Solving:
 
     def _is_zero(self, p: Polynomial, known: _Partial) -> bool:
         """Whether a polynomial vanishes at what is known: by exact algebra in the ring of what it needs."""
+        if p.is_zero:
+            return True
         equations = known.needed_for(p)
         own = self.ring.with_names(
             tuple(n for n in self.ring.names if any(n in e.variables for e in equations))

@@ -69,3 +69,13 @@ def test_a_hard_module_is_solved_with_all_that_it_needs_and_before_what_needs_th
     exact = sorted(p.floats for p in real_points(system).value)
     assert len(found) == len(exact) > 0
     assert all(a == pytest.approx(b, abs=1e-9) for a, b in zip(found, exact, strict=True))
+
+
+def test_a_dyad_whose_discriminant_is_zero_everywhere() -> None:
+    """Two parallel lines and a third one parallel to them: in (x, y) x - y = -c or 2 - c, and x - y = 1.
+
+    With c = 1 the third is one of the two, and there are no finitely many points to give."""
+    ring = Ring(("c", "x", "y"))
+    c, x, y = ring.gens
+    with pytest.raises(Undecided, match="turns freely"):
+        module_points((c**2 - c, (x - y + c - 1) ** 2 - 1, (c + 1) * (x - y - 1)))
