@@ -52,7 +52,7 @@ from singsym.varieties.real.dimension.extent import union
 from singsym.varieties.real.system import RealSystem
 
 SHARES = (0.5, 0.8, 1.0)
-"""So much of all time is used up when the search, what is real of the strata, and everything ends."""
+"""So much of time and work is used up when the search, what is real of the strata, and everything ends."""
 
 
 @dataclass(frozen=True)
@@ -60,13 +60,15 @@ class Limits:
     """What a classification may use, None without limit.
 
     seconds, memory_mb: of work (see `processor_time`) and memory for each task (a branch, a stratum, a
-    curve); total: seconds of time after which every task ends: half of it for the search for strata, and
-    the most of the rest for what is real of them.
+    curve); total: seconds of work of all tasks together; clock: seconds on the clock after which every task
+    ends, whatever else the machine did.  Half of these two is for the search for strata, and the most of the
+    rest for what is real of them.
     """
 
     seconds: float | None = 60.0
     memory_mb: int | None = None
-    total: float | None = 1800.0
+    total: float | None = 3600.0
+    clock: float | None = None
 
     def part(self, seconds: float) -> float:
         """So many seconds, or those of a task where they are fewer."""
@@ -128,15 +130,16 @@ def classify_inside(
     cache: bool = True,
 ) -> Classification:
     """The same in the unit of the equation, its configurations with more digits than are reported."""
-    started = time.monotonic()
+    started, limits = time.monotonic(), limits or Limits()
+    ends = Ends.of(limits)
     with ExitStack() as stack:
         if executor is None:
             executor = processes(workers)
             if executor is not None:
                 stack.enter_context(executor)
         runner = Runner(executor, user_cache() if cache else None)
-        found, limits = conditions(equation, reduce(equation)), limits or Limits()
-        work = _Work(mechanism, found, runner, limits, Ends.of(limits.total))
+        found = conditions(equation, reduce(equation))
+        work = _Work(mechanism, found, runner, limits, ends)
         return work.classification(started)
 
 
@@ -149,9 +152,13 @@ class Ends:
     all: Budget
 
     @classmethod
-    def of(cls, total: float | None) -> Ends:
-        """Those of so many seconds from now."""
-        return cls(*(Budget(None if total is None else share * total) for share in SHARES))
+    def of(cls, limits: Limits) -> Ends:
+        """Those of the limits from now."""
+
+        def part(whole: float | None, share: float) -> float | None:
+            return None if whole is None else share * whole
+
+        return cls(*(Budget(part(limits.clock, s), work=part(limits.total, s)) for s in SHARES))
 
 
 @dataclass

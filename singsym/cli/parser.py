@@ -211,7 +211,8 @@ def _work(command: argparse.ArgumentParser) -> None:
         "--budget",
         type=_positive,
         metavar="SECONDS",
-        help="of all work, a tenth or 60 for each part (default: 1800); what takes longer is undecided",
+        help="on the clock, a tenth or 60 for each part; what takes longer is undecided "
+        "(default: 3600 of processor time, so that a busy machine changes no answer)",
     )
     command.add_argument(
         "--workers", type=_at_least_one, default=_workers(), help="processes (default: %(default)s)"

@@ -157,11 +157,11 @@ def run_solve(chosen: argparse.Namespace) -> int:
 
 
 def _limits(chosen: argparse.Namespace) -> Limits:
-    """The budget of all work, a tenth of it at most for each part; the defaults without --budget."""
+    """The time for everything, a tenth of it at most for each part; the defaults without --budget."""
     from singsym.classes.classify import Limits
 
     usual = Limits()
-    return usual if chosen.budget is None else Limits(usual.part(chosen.budget / 10), total=chosen.budget)
+    return usual if chosen.budget is None else Limits(usual.part(chosen.budget / 10), clock=chosen.budget)
 
 
 def _resumable(chosen: argparse.Namespace) -> None:

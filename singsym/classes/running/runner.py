@@ -9,11 +9,13 @@ from collections import deque
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Generic, Protocol, TypeVar
 
 from singsym.classes.running.disk_cache import Cache, Entry, Result
 from singsym.effort import chance, progress
 from singsym.effort.budget import Budget
+from singsym.effort.processor_time import charge, worked
 from singsym.elimination import engines
 
 
@@ -34,9 +36,11 @@ Place = tuple[int, ...]
 
 def _with_settings(
     allowed: tuple[str, ...], seed: int, budget: Budget, function: Callable[[T], R], task: T
-) -> R:
+) -> tuple[R, float]:
+    """The result, and the seconds of work that it took."""
+    before = worked()
     with engines.use(*allowed), chance.use_seed(seed), budget:
-        return function(task)
+        return function(task), worked() - before
 
 
 @dataclass
@@ -108,6 +112,13 @@ class Runner:
         return [(grown[p], results[p] if p in results else grown[p].unfinished(reason)) for p in order]
 
 
+def _outcome(future: Future[tuple[R, float]]) -> R:
+    """The result of a task, whose work is charged to the thread that waited for it."""
+    result, seconds = future.result()
+    charge(seconds)
+    return result
+
+
 def _nothing(result: object) -> tuple[()]:
     return ()
 
@@ -131,7 +142,7 @@ class _Queue(Generic[T, R]):
         self.allowed = engines.allowed()
         self.seed = chance.seed()
         self.waiting: deque[_Job[T, R]] = deque()
-        self.running: dict[Future[R], _Job[T, R]] = {}
+        self.running: dict[Future[tuple[R, float]], _Job[T, R]] = {}
 
     def __bool__(self) -> bool:
         return bool(self.waiting or self.running)
@@ -142,12 +153,12 @@ class _Queue(Generic[T, R]):
         else:
             self.running[self._submitted(self.executor, job.task)] = job
 
-    def _submitted(self, executor: Executor, task: T) -> Future[R]:
+    def _submitted(self, executor: Executor, task: T) -> Future[tuple[R, float]]:
         try:
             left = self.budget.part()
             return executor.submit(_with_settings, self.allowed, self.seed, left, self.function, task)
         except BrokenExecutor as error:
-            broken: Future[R] = Future()
+            broken: Future[tuple[R, float]] = Future()
             broken.set_exception(error)
             return broken
 
@@ -158,7 +169,9 @@ class _Queue(Generic[T, R]):
             with self.budget.part():
                 return [(job, self._result(job, lambda: self.function(job.task)))]
         done, _ = wait(self.running, return_when=FIRST_COMPLETED)
-        return [(job := self.running.pop(future), self._result(job, future.result)) for future in done]
+        return [
+            (job := self.running.pop(future), self._result(job, partial(_outcome, future))) for future in done
+        ]
 
     def _result(self, job: _Job[T, R], outcome: Callable[[], R]) -> R:
         try:

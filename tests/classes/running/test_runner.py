@@ -7,6 +7,7 @@ import signal
 import time
 from collections.abc import Iterator
 from concurrent.futures import BrokenExecutor, Executor, ProcessPoolExecutor, ThreadPoolExecutor
+from contextlib import nullcontext
 from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
@@ -16,7 +17,7 @@ import pytest
 from singsym.classes.running.disk_cache import Cache
 from singsym.classes.running.processes import Processes
 from singsym.classes.running.runner import Runner
-from singsym.effort.budget import Budget
+from singsym.effort.budget import Budget, current
 from singsym.elimination import engines
 
 
@@ -63,6 +64,14 @@ def killed(task: Given) -> Number:
     """Kills its own process where the number is odd."""
     if task.value % 2:
         os.kill(os.getpid(), signal.SIGKILL)
+    return Number(task.value)
+
+
+def busy(task: Given) -> Number:
+    """Works for a fifth of a second, unless no work is left."""
+    end = time.thread_time() + 0.2
+    while time.thread_time() < end and current().remaining() != 0.0:
+        pass
     return Number(task.value)
 
 
@@ -113,6 +122,14 @@ def test_a_budget_leaves_tasks_unfinished() -> None:
     found = Runner().grow(slow_then_fast, given(4, 0), halves, "halving", Budget(0))
     assert [(task.value, number.value) for task, number in found] == [(4, 4), (0, -1), (2, -1), (2, -1)]
     assert {number.doubt for _, number in found[1:]} == {"the budget of 0 s for halving is used up"}
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_a_budget_of_work_is_used_up_by_all_tasks_together(workers: int) -> None:
+    """Of ten tasks of 0.2 s each, 0.5 s of work allow four at most, whoever does them; sleep is no work."""
+    with nullcontext() if workers == 1 else Processes(workers) as pool:
+        found = Runner(pool).map(busy, given(*range(10)), "test", Budget(work=0.5))
+    assert 3 <= sum(not number.doubt for number in found) <= 4
 
 
 def test_an_interrupted_run_goes_on_where_it_was(tmp_path: Path) -> None:
