@@ -31,7 +31,7 @@ from singsym.classes.realisation.realisation import Realised, RealTask, realise
 from singsym.classes.result import Classification, Locus, Piece
 from singsym.classes.running.disk_cache import user_cache
 from singsym.classes.running.processes import processes
-from singsym.classes.running.runner import Runner
+from singsym.classes.running.runner import Interrupted, Runner
 from singsym.classes.strata.branches import Branch, Found
 from singsym.classes.strata.ranks import RankProblem, Stratum
 from singsym.classes.strata.reflections import image, reflections
@@ -89,7 +89,8 @@ def classify(
     formulation: see `kinematics.formulations.place`; workers: processes, unless an `executor` is given
     (any of `concurrent.futures`, also Dask's or MPI's); limits: budget of each task; cache: use the cache on
     disk, so that an interrupted run goes on where it was.
-    Raises `MechanismError` for a mechanism that cannot be placed.
+    Raises `MechanismError` for a mechanism that cannot be placed, and `Interrupted` with what is known on
+    a `KeyboardInterrupt` while tasks are under way.
 
     >>> from singsym.mechanism import load
     >>> result = classify(load("slider-crank"), cache=False)
@@ -97,11 +98,10 @@ def classify(
     [(1 (RI, IO), 2)]
     """
     border = Border.of(mechanism, formulation)
-    return border.classification(
-        classify_inside(
-            mechanism, border.inside, workers=workers, executor=executor, limits=limits, cache=cache
-        )
+    found = classify_inside(
+        mechanism, border.inside, workers=workers, executor=executor, limits=limits, cache=cache
     )
+    return _whole(border.classification(found))
 
 
 def classify_equation(
@@ -117,7 +117,13 @@ def classify_equation(
     found = classify_inside(
         mechanism, equation, workers=workers, executor=executor, limits=limits, cache=cache
     )
-    return Border.around(equation).classification(found)
+    return _whole(Border.around(equation).classification(found))
+
+
+def _whole(found: Classification) -> Classification:
+    if found.interrupted:
+        raise Interrupted(found)
+    return found
 
 
 def classify_inside(
@@ -134,7 +140,7 @@ def classify_inside(
     ends = Ends.of(limits)
     with ExitStack() as stack:
         if executor is None:
-            executor = processes(workers)
+            executor = processes(workers, limits.clock is not None)
             if executor is not None:
                 stack.enter_context(executor)
         runner = Runner(executor, user_cache() if cache else None)
@@ -219,6 +225,7 @@ class _Work:
             time.monotonic() - started,
             chance.seed(),
             remarks_of(self.conditions),
+            self.runner.interrupted,
         )
 
     def _pieces(self, found: Sequence[Found]) -> list[Realised]:

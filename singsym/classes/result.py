@@ -170,7 +170,7 @@ class Classification:
     """Everything found out about a mechanism's singularities; `output.plain_data` gives it as plain data.
 
     mechanism: None where a velocity equation was given by itself; seed: of all random choices; remarks: what
-    is to be said of the conditions as a whole.
+    is to be said of the conditions as a whole; interrupted: whether a user ended the work.
     """
 
     mechanism: Mechanism | None
@@ -183,6 +183,7 @@ class Classification:
     seconds: float = field(compare=False)
     seed: int = field(default=0, compare=False)
     remarks: tuple[str, ...] = ()
+    interrupted: bool = False
 
     @property
     def undecided(self) -> bool:

@@ -16,11 +16,11 @@ from singsym.classes.realisation.certified_configuration import Names, configura
 from singsym.classes.result import Classification, Configuration, Piece
 from singsym.classes.running.disk_cache import user_cache
 from singsym.classes.running.processes import processes
-from singsym.classes.running.runner import Runner
+from singsym.classes.running.runner import Interrupted, Runner
 from singsym.classes.taxonomy.types import SingularityType
 from singsym.classes.unit_border import Border
 from singsym.conditions.conditions import Condition, Conditions, conditions
-from singsym.effort.budget import Undecided, current
+from singsym.effort.budget import Budget, Undecided, current
 from singsym.effort.verdict import Certainty, Known, Premises, Verdict, weakest
 from singsym.elimination.ideal import Ideal
 from singsym.kinematics.velocity import VelocityEquation
@@ -235,9 +235,10 @@ def _solved(
     outside = found if border.unit == 1 else conditions(border.outside)
     asked = [found[label] for label in labels]
     limits = limits or Limits()
+    budget = Budget(limits.clock, work=limits.total)
     with ExitStack() as stack:
         if executor is None:
-            executor = processes(workers)
+            executor = processes(workers, limits.clock is not None)
             if executor is not None:
                 stack.enter_context(executor)
         runner = Runner(executor, user_cache() if cache else None)
@@ -250,23 +251,31 @@ def _solved(
                 )
                 solution = _from_classes(condition, whole)
             else:
-                solution = _closed(condition, found, runner, limits)
+                solution = _closed(condition, found, runner, limits, budget)
             shown = tuple(map(border.part, solution.pieces))
             seen = outside[condition.label]
             results.append(replace(solution, condition=seen, equation=border.outside, pieces=shown))
+        if runner.interrupted or (whole is not None and whole.interrupted):
+            raise Interrupted(tuple(results))
         return tuple(results)
 
 
-def _closed(condition: Condition, found: Conditions, runner: Runner, limits: Limits) -> Solution:
-    """The solution set of a condition that says which polynomials vanish."""
+def _closed(
+    condition: Condition, found: Conditions, runner: Runner, limits: Limits, budget: Budget
+) -> Solution:
+    """The solution set of a condition that says which polynomials vanish.
+
+    Its parts are few: where the time on the clock is limited, each may use all of it.
+    """
+    seconds = limits.seconds if limits.clock is None else limits.clock
     space = found.equation.space
     feasible = RealSystem(space.ring, (), space.exclusions, space.positive, space.nonnegative)
     names = Names(space.points, found.equation.values)
     tasks = [
-        LocusTask(path, space.equations, feasible, names, limits.seconds, limits.memory_mb)
+        LocusTask(path, space.equations, feasible, names, seconds, limits.memory_mb)
         for path in condition.polynomials
     ]
-    solved = runner.map(solve_locus, tasks, f"condition ({condition.label})")
+    solved = runner.map(solve_locus, tasks, f"condition ({condition.label})", budget)
     pieces = [p for part in solved for p in part.pieces if not p.verdict.is_no]
     doubts = [part.doubt for part in solved if part.doubt]
     doubts += [p.verdict.reason for p in pieces if p.verdict.is_undecided]

@@ -12,6 +12,7 @@ import sys
 import threading
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from types import FrameType
 
 from singsym.cli.screen import UserError, say
@@ -32,8 +33,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if chosen.run is None:
         parser().print_help()
         return USAGE
+    ended = _Ended()
     try:
-        with _ended_in_order():
+        with ended.in_order():
             code: int = chosen.run(chosen)
         sys.stdout.flush()
     except UserError as error:
@@ -46,22 +48,30 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt as interrupt:
         during = f" during {interrupt}" if str(interrupt) else ""
         say(f"singsym {chosen.command}: interrupted{during}{chosen.on_interrupt}")
-        return INTERRUPTED
+        sys.stdout.flush()
+        return ended.code
     return code
 
 
-@contextmanager
-def _ended_in_order() -> Iterator[None]:
-    """SIGTERM ends the work inside as an exception does, which leaves no processes and files behind."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
+@dataclass
+class _Ended:
+    """What ends a command early, and its exit code."""
 
-    def end(number: int, frame: FrameType | None) -> None:
-        raise SystemExit(128 + number)
+    code: int = INTERRUPTED
 
-    before = signal.signal(signal.SIGTERM, end)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, before)
+    @contextmanager
+    def in_order(self) -> Iterator[None]:
+        """SIGTERM ends the work inside as Ctrl-C does: what is known is printed, nothing is left behind."""
+        if threading.current_thread() is not threading.main_thread():
+            yield
+            return
+
+        def end(number: int, frame: FrameType | None) -> None:
+            self.code = 128 + number
+            raise KeyboardInterrupt
+
+        before = signal.signal(signal.SIGTERM, end)
+        try:
+            yield
+        finally:
+            signal.signal(signal.SIGTERM, before)

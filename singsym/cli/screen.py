@@ -76,8 +76,9 @@ def progress_shown() -> Iterator[None]:
     try:
         with _bar(note) as sink, progress.to(sink):
             yield
-    except KeyboardInterrupt:
-        raise KeyboardInterrupt(last[0]) from None
+    except KeyboardInterrupt as interruption:
+        interruption.args = interruption.args or (last[0],)
+        raise
 
 
 @contextmanager

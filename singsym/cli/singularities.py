@@ -6,7 +6,8 @@ Source: sections 2.3, 3.1 and 3.2 of Zlatanov, Fenton, Benhabib (1998).
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, cast
 
 from singsym.cli.mechanisms import complaint, placed, read
 from singsym.cli.screen import UserError, emit_data, emit_page
@@ -16,6 +17,7 @@ from singsym.mechanism.choices import is_redundant
 if TYPE_CHECKING:
     from singsym.classes.classify import Limits
     from singsym.classes.result import Classification
+    from singsym.classes.solve import Solution
 
 UNDECIDED = 3
 
@@ -103,8 +105,19 @@ def classified(chosen: argparse.Namespace) -> Classification:
 
 
 def run_classify(chosen: argparse.Namespace) -> int:
-    """`singsym classify MECHANISM`."""
-    result = classified(chosen)
+    """`singsym classify MECHANISM`; what is known when it is interrupted is printed too."""
+    from singsym.classes.running.runner import Interrupted
+
+    try:
+        result = classified(chosen)
+    except Interrupted as interruption:
+        _emit_classification(cast("Classification", interruption.partial), chosen)
+        raise
+    _emit_classification(result, chosen)
+    return UNDECIDED if result.undecided else 0
+
+
+def _emit_classification(result: Classification, chosen: argparse.Namespace) -> None:
     if chosen.format == "json":
         from singsym.output.plain_data import classification_data
 
@@ -119,11 +132,11 @@ def run_classify(chosen: argparse.Namespace) -> int:
         from singsym.output.text import classification_page
 
         emit_page(classification_page(result))
-    return UNDECIDED if result.undecided else 0
 
 
 def run_solve(chosen: argparse.Namespace) -> int:
-    """`singsym solve MECHANISM CONDITION ...`."""
+    """`singsym solve MECHANISM CONDITION ...`; what is known when it is interrupted is printed too."""
+    from singsym.classes.running.runner import Interrupted
     from singsym.classes.solve import solve
     from singsym.cli.screen import progress_shown
     from singsym.elimination import engines
@@ -131,15 +144,24 @@ def run_solve(chosen: argparse.Namespace) -> int:
     mechanism = read(chosen)
     placed(mechanism, chosen.formulation)
     _resumable(chosen)
-    with engines.use(*chosen.engines), progress_shown():
-        found = solve(
-            mechanism,
-            *dict.fromkeys(chosen.labels),
-            formulation=chosen.formulation,
-            workers=chosen.workers,
-            limits=_limits(chosen),
-            cache=chosen.cache,
-        )
+    try:
+        with engines.use(*chosen.engines), progress_shown():
+            found = solve(
+                mechanism,
+                *dict.fromkeys(chosen.labels),
+                formulation=chosen.formulation,
+                workers=chosen.workers,
+                limits=_limits(chosen),
+                cache=chosen.cache,
+            )
+    except Interrupted as interruption:
+        _emit_solutions(mechanism, cast("tuple[Solution, ...]", interruption.partial), chosen)
+        raise
+    _emit_solutions(mechanism, found, chosen)
+    return UNDECIDED if any(s.undecided for s in found) else 0
+
+
+def _emit_solutions(mechanism: Mechanism, found: Sequence[Solution], chosen: argparse.Namespace) -> None:
     if chosen.format == "json":
         from singsym.output.plain_data import solution_data
 
@@ -153,7 +175,6 @@ def run_solve(chosen: argparse.Namespace) -> int:
         from singsym.output.text import solution_page
 
         emit_page(solution_page(mechanism.name, found))
-    return UNDECIDED if any(s.undecided for s in found) else 0
 
 
 def _limits(chosen: argparse.Namespace) -> Limits:

@@ -65,8 +65,11 @@ class Budget:
 
     def remaining(self) -> float | None:
         """Seconds left, of time or of work (never negative), or `None` where neither is limited."""
-        time_left = None if self._deadline is None else max(0.0, self._deadline - time.monotonic())
-        return _least(time_left, self._work_left())
+        return _least(self.time_left(), self._work_left())
+
+    def time_left(self) -> float | None:
+        """Seconds left on the clock."""
+        return None if self._deadline is None else max(0.0, self._deadline - time.monotonic())
 
     def _work_left(self) -> float | None:
         return None if self._work_ends is None else max(0.0, self._work_ends - worked())
@@ -111,8 +114,7 @@ class Budget:
             self._token = None
 
     def __reduce__(self) -> tuple[type[Budget], tuple[float | None, int | None, None, float | None]]:
-        left = None if self._deadline is None else max(0.0, self._deadline - time.monotonic())
-        return Budget, (left, self.memory_mb, None, self._work_left())
+        return Budget, (self.time_left(), self.memory_mb, None, self._work_left())
 
     def __repr__(self) -> str:
         left = self.remaining()

@@ -15,7 +15,7 @@ import signal
 import sys
 import threading
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from concurrent.futures import BrokenExecutor, Executor, Future
 from contextlib import suppress
 from multiprocessing.connection import Connection
@@ -36,13 +36,15 @@ class WorkerDied(BrokenExecutor):
     """The process at work on a call ended before the call did, each time that it was tried."""
 
 
-def processes(workers: int) -> Processes | None:
+def processes(workers: int, may_be_ended: bool = False) -> Processes | None:
     """An executor of that many processes; None for one worker, which needs no executor.
+
+    may_be_ended: whether work may have to be ended that does not heed a budget; then one worker needs one.
 
     >>> processes(1) is None
     True
     """
-    return Processes(workers) if workers > 1 else None
+    return Processes(workers) if workers > 1 or may_be_ended else None
 
 
 class Processes(Executor):
@@ -79,6 +81,11 @@ class Processes(Executor):
         for worker in self._workers if wait else ():
             worker.join()
 
+    def give_up(self, futures: Collection[Future[Any]]) -> None:
+        """End the processes that are at work on these calls, which end with `WorkerDied`."""
+        for worker in self._workers:
+            worker.give_up(futures)
+
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
@@ -99,6 +106,8 @@ class _Worker(threading.Thread):
         super().__init__(daemon=True)
         self.calls = calls
         self.stopped = False
+        self.current: Future[Any] | None = None
+        self.given_up: Future[Any] | None = None
         self.process: BaseProcess | None = None
         self.connection: Connection | None = None
 
@@ -107,6 +116,7 @@ class _Worker(threading.Thread):
             future, *rest = call
             if not future.set_running_or_notify_cancel():
                 continue
+            self.current = future
             try:
                 future.set_result(self._result(pickle.dumps(rest)))
             except BaseException as error:
@@ -120,12 +130,21 @@ class _Worker(threading.Thread):
             if self.process is not None:
                 self.process.kill()
 
+    def give_up(self, futures: Collection[Future[Any]]) -> None:
+        """End the process if it is at work on one of these calls, from another thread."""
+        with _lock:
+            if self.process is not None and self.current in futures:
+                self.given_up = self.current
+                self.process.kill()
+
     def _result(self, message: bytes) -> Any:
         for _ in range(_TRIES):
             try:
                 reply = self._reply(message)
             except (EOFError, OSError) as error:
                 how = self._end() or f"could not be started ({error})"
+                if self.given_up is self.current:
+                    raise WorkerDied("it was ended") from None
                 continue
             succeeded, value = pickle.loads(reply)
             if succeeded:

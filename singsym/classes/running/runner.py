@@ -13,6 +13,7 @@ from functools import partial
 from typing import Any, Generic, Protocol, TypeVar
 
 from singsym.classes.running.disk_cache import Cache, Entry, Result
+from singsym.classes.running.processes import Processes
 from singsym.effort import chance, progress
 from singsym.effort.budget import Budget
 from singsym.effort.processor_time import charge, worked
@@ -27,8 +28,22 @@ class Task(Protocol):
         ...
 
 
+class Interrupted(KeyboardInterrupt):
+    """A `KeyboardInterrupt` while tasks were under way.
+
+    partial: the result of what was finished; the rest is undecided, and says so.
+    """
+
+    def __init__(self, partial: object) -> None:
+        super().__init__()
+        self.partial = partial
+
+
 T = TypeVar("T", bound=Task)
 R = TypeVar("R", bound=Result)
+
+GRACE, SHARE_OVER = 2.0, 0.1
+"""So many seconds and so much of the time given may be overrun; then what does not heed it is ended."""
 
 Place = tuple[int, ...]
 """Which task: its number among the first ones, or among those that follow from the task at `place[:-1]`."""
@@ -49,11 +64,13 @@ class Runner:
 
     executor: any `concurrent.futures.Executor`; None runs in this process.
     cache: where results are kept, or None.
-    A task whose worker dies, or that finds no memory, ends unfinished.
+    interrupted: whether there was a `KeyboardInterrupt`; nothing more is begun then.
+    A task whose worker dies, that finds no memory or that is interrupted ends unfinished.
     """
 
     executor: Executor | None = None
     cache: Cache | None = None
+    interrupted: bool = False
 
     def map(
         self, function: Callable[[T], R], tasks: Sequence[T], stage: str, budget: Budget | None = None
@@ -75,14 +92,15 @@ class Runner:
         """Tasks and their results, with those of the tasks that follow from results, and so on.
 
         In the order of generations and, within each, of the tasks they follow from; nothing follows from a
-        task that was not finished when the budget was used up.
+        task that was not finished when the budget was used up.  When it is, those at work have a little time
+        to say what they know.
         """
         grown: dict[Place, T] = {}
         results: dict[Place, R] = {}
         work: _Queue[T, R] = _Queue(function, self.executor, budget)
         new: list[tuple[Place, T]] = [((i,), task) for i, task in enumerate(tasks)]
         try:
-            while True:
+            while not self.interrupted:
                 grown.update(new)
                 arrived: list[tuple[Place, R]] = []
                 for place, task in new:
@@ -94,20 +112,27 @@ class Runner:
                         arrived.append((place, known))
                 progress.report(stage, done=len(results) + len(arrived), total=len(grown))
                 if not arrived:
-                    if not work or (results and budget.remaining() == 0.0):
-                        break
+                    if results and budget.remaining() == 0.0:
+                        work.call_off()
                     for job, result in work.finished():
                         if self.cache is not None and job.entry is not None:
                             self.cache.put(job.entry, result)
                         arrived.append((job.place, result))
-                results.update(arrived)
+                    if not arrived:
+                        break
+                # in this order, so that an interruption leaves none of those that follow out
                 new = [((*p, i), task) for p, r in arrived for i, task in enumerate(following(r))]
+                results.update(arrived)
+        except KeyboardInterrupt:
+            self.interrupted = True
         except Exception:
             work.call_off()
             raise
-        # not on an interruption: a pool whose processes die while futures are cancelled never ends
-        work.call_off()
-        reason = f"the budget of {budget.seconds or 0:g} s for {stage} is used up"
+        finally:
+            work.end()
+        grown.update(new)
+        used_up = f"the budget of {budget.seconds or 0:g} s for {stage} is used up"
+        reason = "it was interrupted" if self.interrupted else used_up
         order = sorted(grown, key=lambda place: (len(place), place))
         return [(grown[p], results[p] if p in results else grown[p].unfinished(reason)) for p in order]
 
@@ -144,9 +169,6 @@ class _Queue(Generic[T, R]):
         self.waiting: deque[_Job[T, R]] = deque()
         self.running: dict[Future[tuple[R, float]], _Job[T, R]] = {}
 
-    def __bool__(self) -> bool:
-        return bool(self.waiting or self.running)
-
     def put(self, job: _Job[T, R]) -> None:
         if self.executor is None:
             self.waiting.append(job)
@@ -163,12 +185,19 @@ class _Queue(Generic[T, R]):
             return broken
 
     def finished(self) -> Iterable[tuple[_Job[T, R], R]]:
-        """At least one result, as soon as there is one; without an executor, that of the next task."""
+        """At least one result, as soon as there is one; without an executor, that of the next task.
+
+        None where no task is left, or where those left do not heed that the time is over.
+        """
         if self.executor is None:
+            if not self.waiting:
+                return []
             job = self.waiting.popleft()
             with self.budget.part():
                 return [(job, self._result(job, lambda: self.function(job.task)))]
-        done, _ = wait(self.running, return_when=FIRST_COMPLETED)
+        left = self.budget.time_left()
+        patience = None if left is None else left + GRACE + SHARE_OVER * (self.budget.seconds or 0.0)
+        done, _ = wait(self.running, patience, return_when=FIRST_COMPLETED)
         return [
             (job := self.running.pop(future), self._result(job, partial(_outcome, future))) for future in done
         ]
@@ -184,5 +213,12 @@ class _Queue(Generic[T, R]):
         return unfinished
 
     def call_off(self) -> None:
-        for future in self.running:
-            future.cancel()
+        """Begin no more tasks."""
+        self.waiting.clear()
+        self.running = {future: job for future, job in self.running.items() if not future.cancel()}
+
+    def end(self) -> None:
+        """Begin no more tasks, and end those at work where the executor can."""
+        if isinstance(self.executor, Processes):
+            self.call_off()
+            self.executor.give_up(self.running)

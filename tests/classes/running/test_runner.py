@@ -75,6 +75,15 @@ def busy(task: Given) -> Number:
     return Number(task.value)
 
 
+def slow_if_odd(task: Given) -> Number:
+    time.sleep(100 * (task.value % 2))
+    return Number(task.value)
+
+
+def same(task: Given) -> Number:
+    return Number(task.value)
+
+
 def without_memory(task: Given) -> Number:
     if task.value == 1:
         raise MemoryError
@@ -126,10 +135,35 @@ def test_a_budget_leaves_tasks_unfinished() -> None:
 
 @pytest.mark.parametrize("workers", [1, 2])
 def test_a_budget_of_work_is_used_up_by_all_tasks_together(workers: int) -> None:
-    """Of ten tasks of 0.2 s each, 0.5 s of work allow four at most, whoever does them; sleep is no work."""
+    """Of ten tasks of 0.2 s each, 0.5 s of work allow three, and some that begin meanwhile."""
     with nullcontext() if workers == 1 else Processes(workers) as pool:
         found = Runner(pool).map(busy, given(*range(10)), "test", Budget(work=0.5))
-    assert 3 <= sum(not number.doubt for number in found) <= 4
+    assert 3 <= sum(not number.doubt for number in found) <= 6
+
+
+def test_nothing_that_follows_is_lost_by_an_interruption() -> None:
+    """Wherever it comes, all tasks that are not done are named: here while the halves of 6 are told."""
+
+    def halved(number: Number) -> list[Given]:
+        if number.value == 6:
+            raise KeyboardInterrupt
+        return halves(number)
+
+    found = Runner().grow(same, given(2, 6), halved, "halving", Budget())
+    named = [task.value for task, number in found if number.doubt]
+    assert 6 in named
+    assert {1, 2} >= {task.value for task, number in found} - {6}
+
+
+def test_what_does_not_heed_the_time_is_ended(tmp_path: Path) -> None:
+    """A task that sleeps for minutes is ended soon after its time, and the next stage has workers again."""
+    started = time.monotonic()
+    with Processes(2) as pool:
+        runner = Runner(pool)
+        first, second = runner.map(slow_if_odd, given(1, 2), "sleeping", Budget(1))
+        assert (first.doubt, second) == ("the budget of 1 s for sleeping is used up", Number(2))
+        assert runner.map(slow_if_odd, given(2, 4), "again") == [Number(2), Number(4)]
+    assert time.monotonic() - started < 30
 
 
 def test_an_interrupted_run_goes_on_where_it_was(tmp_path: Path) -> None:
@@ -140,8 +174,11 @@ def test_an_interrupted_run_goes_on_where_it_was(tmp_path: Path) -> None:
 
     # the cache knows a task by its function's name
     interrupted.__module__, interrupted.__qualname__ = squared.__module__, squared.__qualname__
-    with pytest.raises(KeyboardInterrupt):
-        Runner(cache=Cache(tmp_path)).map(interrupted, given(1, 2, 3, 4), "test")
+    runner = Runner(cache=Cache(tmp_path))
+    partial = runner.map(interrupted, given(1, 2, 3, 4), "test")
+    assert MADE == [1, 2]
+    assert [number.doubt for number in partial] == ["", "", *["it was interrupted"] * 2]
+    assert runner.map(squared, given(5), "later")[0].doubt == "it was interrupted"
     assert MADE == [1, 2]
     found = Runner(cache=Cache(tmp_path)).map(squared, given(1, 2, 3, 4), "test")
     assert [number.value for number in found] == [1, 4, 9, 16]
