@@ -138,7 +138,11 @@ class Polynomial:
         try:
             return self._hash
         except AttributeError:
-            object.__setattr__(self, "_hash", hash((self.ring.names, str(self.value))))
+            # of three terms, since all would take longer than most that is done with a long polynomial
+            terms = len(self.value)
+            places = (0, terms // 2, terms - 1) if terms else ()
+            known = tuple((self.value.monomial(k), self.value.coefficient(k)) for k in places)
+            object.__setattr__(self, "_hash", hash((self.ring.names, terms, known)))
             return self._hash
 
     # -- inspection ------------------------------------------------------------------------------
