@@ -12,6 +12,8 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any, Generic, Protocol, TypeVar
 
+from threadpoolctl import threadpool_limits
+
 from singsym.classes.running.disk_cache import Cache, Entry, Result
 from singsym.classes.running.processes import Processes
 from singsym.effort import chance, progress
@@ -54,7 +56,7 @@ def _with_settings(
 ) -> tuple[R, float]:
     """The result, and the seconds of work that it took."""
     before = worked()
-    with engines.use(*allowed), chance.use_seed(seed), budget:
+    with engines.use(*allowed), chance.use_seed(seed), budget, threadpool_limits(1):
         return function(task), worked() - before
 
 
@@ -66,6 +68,7 @@ class Runner:
     cache: where results are kept, or None.
     interrupted: whether there was a `KeyboardInterrupt`; nothing more is begun then.
     A task whose worker dies, that finds no memory or that is interrupted ends unfinished.
+    Tasks use one thread each: on small matrices the threads of BLAS mostly wait for each other.
     """
 
     executor: Executor | None = None
@@ -187,13 +190,13 @@ class _Queue(Generic[T, R]):
     def finished(self) -> Iterable[tuple[_Job[T, R], R]]:
         """At least one result, as soon as there is one; without an executor, that of the next task.
 
-        None where no task is left, or where those left do not heed that the time is over.
+        No result where no task is left, or where those left do not heed that the time is over.
         """
         if self.executor is None:
             if not self.waiting:
                 return []
             job = self.waiting.popleft()
-            with self.budget.part():
+            with self.budget.part(), threadpool_limits(1):
                 return [(job, self._result(job, lambda: self.function(job.task)))]
         left = self.budget.time_left()
         patience = None if left is None else left + GRACE + SHARE_OVER * (self.budget.seconds or 0.0)
