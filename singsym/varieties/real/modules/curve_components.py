@@ -5,9 +5,10 @@ Source: coverings of curves, see lifted_curve.py; the curve below by real_curve.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 
 from singsym.effort.budget import Budget, Undecided
+from singsym.elimination.memo import remember
 from singsym.polynomials import Equations, Polynomial
 from singsym.polynomials.block_form import with_last_modules
 from singsym.varieties.real.curves.arithmetic import System
@@ -29,6 +30,14 @@ def components_off(equations: Equations, exclusions: Sequence[Equations], budget
     >>> components_off(four_bar, (), Budget()), components_off(four_bar, ((y,), (c, s)), Budget())
     (2, 2)
     """
+    known = frozenset(p.primitive() for p in equations)
+    key = (equations[0].ring, known)
+    points = remember("components by modules", key, lambda: _points(equations, budget), budget)
+    return sum(not any(_lies_in(p, group, known) for group in exclusions) for p in points)
+
+
+def _points(equations: Equations, budget: Budget) -> tuple[BoxPoint, ...]:
+    """One of each component."""
     core, dyads = with_last_modules(equations, 2)
     if not core or not dyads or not all(map(is_round, dyads)):
         raise Undecided("the curve has no dyads that come last")
@@ -45,12 +54,10 @@ def components_off(equations: Equations, exclusions: Sequence[Equations], budget
     curve = LiftedCurve(System(below, own), found.loops)
     for module in dyads:
         curve = curve.lifted(module, ring, budget)
-    points = [curve.point_on(loop) for loop in curve.loops]
-    known = {p.primitive() for p in equations}
-    return sum(not any(_lies_in(p, group, known) for group in exclusions) for p in points)
+    return tuple(curve.point_on(loop) for loop in curve.loops)
 
 
-def _lies_in(point: BoxPoint, group: Equations, known: set[Polynomial]) -> bool:
+def _lies_in(point: BoxPoint, group: Equations, known: Set[Polynomial]) -> bool:
     """Whether the component of a point lies in an exclusion; `Undecided` where this is not seen.
 
     It does where all polynomials are among the curve's equations, and not where the point is outside.
