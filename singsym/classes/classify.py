@@ -8,7 +8,6 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from concurrent.futures import Executor
-from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import inf
@@ -29,9 +28,7 @@ from singsym.classes.realisation.local_coordinates import local_coordinates
 from singsym.classes.realisation.looks import bounded_by, is_open, known_dimensions, merged
 from singsym.classes.realisation.realisation import Realised, RealTask, realise
 from singsym.classes.result import Classification, Locus, Piece
-from singsym.classes.running.disk_cache import user_cache
-from singsym.classes.running.processes import processes
-from singsym.classes.running.runner import Interrupted, Runner
+from singsym.classes.running.runner import Interrupted, Runner, running
 from singsym.classes.strata.branches import Branch, Found
 from singsym.classes.strata.ranks import RankProblem, Stratum
 from singsym.classes.strata.reflections import image, reflections
@@ -97,10 +94,9 @@ def classify(
     >>> [(c.singularity_class, c.points) for c in result.classes if c.verdict.is_yes]
     [(1 (RI, IO), 2)]
     """
-    border = Border.of(mechanism, formulation)
-    found = classify_inside(
-        mechanism, border.inside, workers=workers, executor=executor, limits=limits, cache=cache
-    )
+    border, limits = Border.of(mechanism, formulation), limits or Limits()
+    with running(workers, executor, limits.clock, cache) as runner:
+        found = classify_inside(mechanism, border.inside, runner, limits)
     return _whole(border.classification(found))
 
 
@@ -114,9 +110,9 @@ def classify_equation(
     cache: bool = True,
 ) -> Classification:
     """The same for a velocity equation, such as one of the user's own; see `classify`."""
-    found = classify_inside(
-        mechanism, equation, workers=workers, executor=executor, limits=limits, cache=cache
-    )
+    limits = limits or Limits()
+    with running(workers, executor, limits.clock, cache) as runner:
+        found = classify_inside(mechanism, equation, runner, limits)
     return _whole(Border.around(equation).classification(found))
 
 
@@ -127,26 +123,12 @@ def _whole(found: Classification) -> Classification:
 
 
 def classify_inside(
-    mechanism: Mechanism | None,
-    equation: VelocityEquation,
-    *,
-    workers: int = 1,
-    executor: Executor | None = None,
-    limits: Limits | None = None,
-    cache: bool = True,
+    mechanism: Mechanism | None, equation: VelocityEquation, runner: Runner, limits: Limits
 ) -> Classification:
     """The same in the unit of the equation, its configurations with more digits than are reported."""
-    started, limits = time.monotonic(), limits or Limits()
-    ends = Ends.of(limits)
-    with ExitStack() as stack:
-        if executor is None:
-            executor = processes(workers, limits.clock is not None)
-            if executor is not None:
-                stack.enter_context(executor)
-        runner = Runner(executor, user_cache() if cache else None)
-        found = conditions(equation, reduce(equation))
-        work = _Work(mechanism, found, runner, limits, ends)
-        return work.classification(started)
+    started, ends = time.monotonic(), Ends.of(limits)
+    found = conditions(equation, reduce(equation))
+    return _Work(mechanism, found, runner, limits, ends).classification(started)
 
 
 @dataclass(frozen=True)

@@ -8,15 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from concurrent.futures import Executor
-from contextlib import ExitStack
 from dataclasses import dataclass, replace
 
 from singsym.classes.classify import Limits, classify_inside
 from singsym.classes.realisation.certified_configuration import Names, configuration
 from singsym.classes.result import Classification, Configuration, Piece
-from singsym.classes.running.disk_cache import user_cache
-from singsym.classes.running.processes import processes
-from singsym.classes.running.runner import Interrupted, Runner
+from singsym.classes.running.runner import Interrupted, Runner, running
 from singsym.classes.taxonomy.types import SingularityType
 from singsym.classes.unit_border import Border
 from singsym.conditions.conditions import Condition, Conditions, conditions
@@ -236,26 +233,19 @@ def _solved(
     asked = [found[label] for label in labels]
     limits = limits or Limits()
     budget = Budget(limits.clock, work=limits.total)
-    with ExitStack() as stack:
-        if executor is None:
-            executor = processes(workers, limits.clock is not None)
-            if executor is not None:
-                stack.enter_context(executor)
-        runner = Runner(executor, user_cache() if cache else None)
+    with running(workers, executor, limits.clock, cache) as runner:
         whole: Classification | None = None
         results = []
         for condition in asked:
             if condition.alternatives is None or condition.everywhere:
-                whole = whole or classify_inside(
-                    mechanism, border.inside, executor=executor, limits=limits, cache=cache
-                )
+                whole = whole or classify_inside(mechanism, border.inside, runner, limits)
                 solution = _from_classes(condition, whole)
             else:
                 solution = _closed(condition, found, runner, limits, budget)
             shown = tuple(map(border.part, solution.pieces))
             seen = outside[condition.label]
             results.append(replace(solution, condition=seen, equation=border.outside, pieces=shown))
-        if runner.interrupted or (whole is not None and whole.interrupted):
+        if runner.interrupted:
             raise Interrupted(tuple(results))
         return tuple(results)
 

@@ -36,17 +36,6 @@ class WorkerDied(BrokenExecutor):
     """The process at work on a call ended before the call did, each time that it was tried."""
 
 
-def processes(workers: int, may_be_ended: bool = False) -> Processes | None:
-    """An executor of that many processes; None for one worker, which needs no executor.
-
-    may_be_ended: whether work may have to be ended that does not heed a budget; then one worker needs one.
-
-    >>> processes(1) is None
-    True
-    """
-    return Processes(workers) if workers > 1 or may_be_ended else None
-
-
 class Processes(Executor):
     """An executor of that many processes, each started when there is a call for it.
 

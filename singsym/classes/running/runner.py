@@ -6,15 +6,16 @@ Source: the Executor interface of Python's `concurrent.futures` (PEP 3148), whic
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from typing import Any, Generic, Protocol, TypeVar
 
 from threadpoolctl import threadpool_limits
 
-from singsym.classes.running.disk_cache import Cache, Entry, Result
+from singsym.classes.running.disk_cache import Cache, Entry, Result, user_cache
 from singsym.classes.running.processes import Processes
 from singsym.effort import chance, progress
 from singsym.effort.budget import Budget
@@ -44,6 +45,9 @@ class Interrupted(KeyboardInterrupt):
 T = TypeVar("T", bound=Task)
 R = TypeVar("R", bound=Result)
 
+ALONE = 3.0
+"""So many seconds of work are done before processes are started, which takes a second each."""
+
 GRACE, SHARE_OVER = 2.0, 0.1
 """So many seconds and so much of the time given may be overrun; then what does not heed it is ended."""
 
@@ -66,6 +70,8 @@ class Runner:
 
     executor: any `concurrent.futures.Executor`; None runs in this process.
     cache: where results are kept, or None.
+    alone: so many seconds of work are done in this process before the executor is asked, since starting
+    workers takes longer than most mechanisms do.
     interrupted: whether there was a `KeyboardInterrupt`; nothing more is begun then.
     A task whose worker dies, that finds no memory or that is interrupted ends unfinished.
     Tasks use one thread each: on small matrices the threads of BLAS mostly wait for each other.
@@ -73,6 +79,7 @@ class Runner:
 
     executor: Executor | None = None
     cache: Cache | None = None
+    alone: float = 0.0
     interrupted: bool = False
 
     def map(
@@ -100,7 +107,7 @@ class Runner:
         """
         grown: dict[Place, T] = {}
         results: dict[Place, R] = {}
-        work: _Queue[T, R] = _Queue(function, self.executor, budget)
+        work: _Queue[T, R] = _Queue(function, self, budget)
         new: list[tuple[Place, T]] = [((i,), task) for i, task in enumerate(tasks)]
         try:
             while not self.interrupted:
@@ -140,6 +147,21 @@ class Runner:
         return [(grown[p], results[p] if p in results else grown[p].unfinished(reason)) for p in order]
 
 
+@contextmanager
+def running(workers: int, executor: Executor | None, clock: float | None, cache: bool) -> Iterator[Runner]:
+    """A runner on the executor given, or on so many processes of its own, for the work inside.
+
+    clock: the seconds after which all work is over, if any; what does not heed that can only be ended in
+        another process.  cache: whether results are kept on disk.
+    """
+    kept = user_cache() if cache else None
+    if executor is not None or (workers == 1 and clock is None):
+        yield Runner(executor, kept)
+        return
+    with Processes(workers) as own:
+        yield Runner(own, kept, alone=ALONE if clock is None else 0.0)
+
+
 def _outcome(future: Future[tuple[R, float]]) -> R:
     """The result of a task, whose work is charged to the thread that waited for it."""
     result, seconds = future.result()
@@ -163,9 +185,10 @@ class _Job(Generic[T, R]):
 class _Queue(Generic[T, R]):
     """Tasks that wait or are at work, and the results of those that have ended."""
 
-    def __init__(self, function: Callable[[T], R], executor: Executor | None, budget: Budget) -> None:
+    def __init__(self, function: Callable[[T], R], runner: Runner, budget: Budget) -> None:
         self.function = function
-        self.executor = executor
+        self.runner = runner
+        self.executor = runner.executor
         self.budget = budget
         self.allowed = engines.allowed()
         self.seed = chance.seed()
@@ -173,10 +196,7 @@ class _Queue(Generic[T, R]):
         self.running: dict[Future[tuple[R, float]], _Job[T, R]] = {}
 
     def put(self, job: _Job[T, R]) -> None:
-        if self.executor is None:
-            self.waiting.append(job)
-        else:
-            self.running[self._submitted(self.executor, job.task)] = job
+        self.waiting.append(job)
 
     def _submitted(self, executor: Executor, task: T) -> Future[tuple[R, float]]:
         try:
@@ -188,22 +208,29 @@ class _Queue(Generic[T, R]):
             return broken
 
     def finished(self) -> Iterable[tuple[_Job[T, R], R]]:
-        """At least one result, as soon as there is one; without an executor, that of the next task.
+        """At least one result, as soon as there is one; of work in this process, that of the next task.
 
         No result where no task is left, or where those left do not heed that the time is over.
         """
-        if self.executor is None:
-            if not self.waiting:
-                return []
+        if self.executor is None or (self.runner.alone > 0.0 and not self.running):
+            return [self._next()] if self.waiting else []
+        while self.waiting:
             job = self.waiting.popleft()
-            with self.budget.part(), threadpool_limits(1):
-                return [(job, self._result(job, lambda: self.function(job.task)))]
+            self.running[self._submitted(self.executor, job.task)] = job
         left = self.budget.time_left()
         patience = None if left is None else left + GRACE + SHARE_OVER * (self.budget.seconds or 0.0)
         done, _ = wait(self.running, patience, return_when=FIRST_COMPLETED)
         return [
             (job := self.running.pop(future), self._result(job, partial(_outcome, future))) for future in done
         ]
+
+    def _next(self) -> tuple[_Job[T, R], R]:
+        """The next task, done in this process."""
+        job, before = self.waiting.popleft(), worked()
+        with self.budget.part(), threadpool_limits(1):
+            result = self._result(job, lambda: self.function(job.task))
+        self.runner.alone -= worked() - before
+        return job, result
 
     def _result(self, job: _Job[T, R], outcome: Callable[[], R]) -> R:
         try:

@@ -14,7 +14,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from singsym.classes.running.processes import Processes, WorkerDied, processes
+from singsym.classes.running.processes import Processes, WorkerDied
 
 posix = pytest.mark.skipif(os.name != "posix", reason="processes are killed with POSIX signals")
 
@@ -48,10 +48,6 @@ def killed_once(trace: str) -> str:
 
 def failing(x: int) -> int:
     raise ValueError(f"no {x}")
-
-
-def test_one_worker_needs_no_executor() -> None:
-    assert processes(1) is None
 
 
 def test_results_and_exceptions(two: Processes) -> None:

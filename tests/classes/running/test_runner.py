@@ -16,7 +16,7 @@ import pytest
 
 from singsym.classes.running.disk_cache import Cache
 from singsym.classes.running.processes import Processes
-from singsym.classes.running.runner import Runner
+from singsym.classes.running.runner import Runner, running
 from singsym.effort.budget import Budget, current
 from singsym.elimination import engines
 
@@ -183,6 +183,26 @@ def test_an_interrupted_run_goes_on_where_it_was(tmp_path: Path) -> None:
     found = Runner(cache=Cache(tmp_path)).map(squared, given(1, 2, 3, 4), "test")
     assert [number.value for number in found] == [1, 4, 9, 16]
     assert MADE == [1, 2, 3, 4]
+
+
+def where(task: Given) -> Number:
+    """The process that does it."""
+    return Number(os.getpid())
+
+
+def test_one_worker_needs_no_process_of_its_own_unless_it_may_have_to_be_ended() -> None:
+    for clock, same in ((None, True), (60.0, False)):
+        with running(1, None, clock, cache=False) as runner:
+            assert (runner.map(where, given(1), "test") == [Number(os.getpid())]) == same
+
+
+def test_workers_are_asked_when_there_is_work_for_them() -> None:
+    """0.2 s for each task: one is done here before 0.1 s are used up, the others elsewhere."""
+    with Processes(2) as pool:
+        runner = Runner(pool, alone=0.1)
+        runner.map(busy, given(1), "test")
+        assert Number(os.getpid()) not in runner.map(where, given(*range(4)), "test")
+        assert Runner(pool, alone=0.1).map(where, given(1, 2), "test") == [Number(os.getpid())] * 2
 
 
 def test_engine_choice_reaches_the_workers() -> None:
