@@ -56,6 +56,7 @@ SPLITTING = Patience(10.0, "a piece is not proven prime")
 # the search for strata
 MEMBERSHIP = Patience(2.0, "a minor is not proven to vanish on a patch, which is split", is_proof=True)
 IRREDUCIBLE = Patience(3.0, "a patch counts as reducible")
+APART = Patience(0.5, "a set is searched as one, though a few of its equations may come apart")
 POINTS_BY_MODULES = Patience(20.0, "finitely many points are searched as any other part")
 ASSEMBLIES = Patience(2.0, "the other proofs that there is no real point are tried")
 FIRST_MODULE = Patience(2.0, "a module without parents is solved on a curve, where its equations have one")

@@ -98,8 +98,12 @@ class CompiledMap:
     def balanced(
         cls, polynomials: Sequence[Polynomial], ring: Ring, sizes: Sequence[float] | None = None
     ) -> CompiledMap:
-        """The map of polynomials scaled so that the largest term of each is 1 at these sizes of variables."""
+        """The map of polynomials scaled so that the largest term of each is 1 at these sizes of variables.
+
+        Coefficients may be too large for doubles; they are divided by the largest one first.
+        """
         sizes = variable_sizes(ring, polynomials) if sizes is None else sizes
+        polynomials = [p / max(abs(c) for c in p.value.coeffs()) if p else p for p in polynomials]
         return cls(polynomials, ring, sizes, [largest_term(p, sizes) or 1.0 for p in polynomials])
 
     @cached_property

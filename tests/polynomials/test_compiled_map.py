@@ -73,6 +73,12 @@ def test_few_terms_and_many_variables(others: int) -> None:
     assert compiled.magnitudes(-points[1], points[0]).tolist()[-1] == max(points[0, 0], points[1, 0]) ** 2
 
 
+def test_coefficients_too_large_for_doubles() -> None:
+    """10^400 (x^2 - 2) at x = 1: the half of its largest term, negative, where |x| is sqrt(2)."""
+    huge = CompiledMap.balanced((10**400 * (x**2 - 2),), RING)
+    assert huge.values(np.array([[1.0, 0.0, 0.0]]))[0, 0] == pytest.approx(-0.5)
+
+
 @pytest.mark.parametrize("k", [Fraction(1, 10**6), Fraction(10**6)])
 def test_a_balanced_map_does_not_depend_on_the_unit(k: Fraction) -> None:
     """x^2 + y^2 - k^2 and 3 x - 2 k are 4 k^2 and k at (k, 2 k), their slopes there 2 k, 4 k and 3."""

@@ -29,6 +29,7 @@ from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Equations, Polynomial
 from singsym.polynomials.unit_circles import unit_circles
 from singsym.varieties.decomposition import decompose
+from singsym.varieties.disjoint_parts import disjoint_parts
 from singsym.varieties.real.proofs.real_consequences import real_consequences
 from singsym.varieties.real.system import RealSystem
 from singsym.varieties.splitting import irreducible_factors
@@ -138,6 +139,8 @@ def explore(branch: Branch) -> Explored:
     work = _Exploring(branch)
     try:
         with current().part(branch.seconds, branch.memory_mb):
+            if len(parts := disjoint_parts(branch.equations)) > 1:
+                return Explored(following=tuple(replace(branch, equations=part) for part in parts))
             if (known := _point_by_point(branch)) is not None:
                 return known
             work.explore()

@@ -17,6 +17,7 @@ from singsym.classes.taxonomy.types import Defects, SingularityType
 from singsym.effort.budget import Budget
 from singsym.effort.verdict import Certainty, weakest
 from singsym.polynomials import Equations
+from singsym.varieties.disjoint_parts import disjoint_parts
 
 _T = SingularityType
 _SIMPLE = (_T(0), _T.RI | _T.IO, _T.RO | _T.II)
@@ -193,8 +194,8 @@ def _strata_without_search(root: Branch, singular: SingularLoci) -> Iterator[Fou
             continue
         paths = [path for path in own if path not in other]
         for i, path in enumerate(paths):
-            equations = (*root.equations, *path)
-            yield Found(path, Stratum(equations, defects, other, elsewhere=tuple(paths[:i])))
+            for equations in disjoint_parts((*root.equations, *path)):
+                yield Found(path, Stratum(equations, defects, other, elsewhere=tuple(paths[:i])))
     if singular.passive is None or singular.mobility is None:
         return
     searched = (*singular.passive, *singular.mobility)
@@ -204,8 +205,8 @@ def _strata_without_search(root: Branch, singular: SingularLoci) -> Iterator[Fou
         if not any(set(locus) <= set(path) for locus in searched)
     ]
     for i, path in enumerate(paths):
-        equations = (*root.equations, *path)
-        yield Found(path, Stratum(equations, Defects(0, 0, 1, 1), searched, elsewhere=tuple(paths[:i])))
+        for equations in disjoint_parts((*root.equations, *path)):
+            yield Found(path, Stratum(equations, Defects(0, 0, 1, 1), searched, elsewhere=tuple(paths[:i])))
 
 
 def _intersections(one: Loci, two: Loci) -> list[Equations]:

@@ -18,15 +18,17 @@ from singsym.effort.attempts import attempt
 from singsym.effort.budget import Undecided, current
 from singsym.effort.verdict import Known, Premises, Verdict
 from singsym.elimination.engines.base import NotZeroDimensional
+from singsym.elimination.linear_substitution import Substitution, solved_variable
 from singsym.elimination.memo import remember
 from singsym.polynomials import Equations, Polynomial, Ring
 from singsym.polynomials.block_form import Module, SolvingOrder, block_form
 from singsym.varieties.real.modules.assemblies import assemblies, dyad, is_simple, value_at
-from singsym.varieties.real.modules.lifted_curve import is_tower, points_on_tower
+from singsym.varieties.real.modules.lifted_curve import is_tower, lifted_curves, points_on_tower, towers
 from singsym.varieties.real.points.boxed_point import BoxPoint, box_around
 from singsym.varieties.real.points.exact_point import RealPoint
 from singsym.varieties.real.points.finite_sets import real_points
 from singsym.varieties.real.points.intervals import at_precision
+from singsym.varieties.splitting import used_ring
 
 PRECISIONS = (256, 1024)
 """Bits of the balls of a first module, tried in turn where something is not seen."""
@@ -58,16 +60,29 @@ def module_points(equations: Equations) -> Known[tuple[BoxPoint, ...]]:
 def has_no_assembly(equations: Equations) -> Verdict:
     """Whether some modules that determine their unknowns have no real solution: yes, or undecided.
 
+    So it is of a curve, a circle with dyads over it, where no loop is left.
+
     >>> from singsym.polynomials import Ring
     >>> x, y, z = Ring(("x", "y", "z")).gens
     >>> has_no_assembly((x**2 - 4, (y - x) ** 2 - x - 1, y * z - 1, x + 1)).is_yes
     True
     """
-    if equations and comes_apart(equations):
+    if not equations:
+        return Verdict.undecided("there are no equations")
+    own = used_ring(equations[0].ring, equations)
+    equations = tuple(map(own.convert, equations))
+    if comes_apart(equations):
         with attempt("modules without an assembly", patience.ASSEMBLIES.work):
             found = module_points(equations)
             if not found.value:
                 return Verdict.yes(found.certainty, reason="modules of the equations have no common assembly")
+    left, _ = _without_given(equations)
+    over = next(towers(left), None) if left else None
+    if over is not None:
+        with attempt("modules over a circle without an assembly", patience.ASSEMBLIES.work):
+            curves = lifted_curves(over, module_points, current())
+            if not any(curve.loops for curve in curves.value):
+                return Verdict.yes(curves.certainty, reason="modules over a circle have no common assembly")
     return Verdict.undecided("modules do not show that there is no real point")
 
 
@@ -84,6 +99,51 @@ def comes_apart(equations: Equations) -> bool:
 
 
 def _points(equations: Equations) -> Known[tuple[BoxPoint, ...]]:
+    """Those of the equations in the variables that no equation of first degree gives, with all values."""
+    left, given = _without_given(equations)
+    if any(p.is_constant for p in left):
+        return Known(())
+    if not given or not left:
+        return _of_modules(equations)
+    ring = equations[0].ring
+    found = _of_modules(left)
+
+    def whole(point: BoxPoint) -> BoxPoint:
+        zeros = tuple(map(ring.convert, point.zeros))
+        return replace(_with_values(point, given, ring), zeros=(*zeros, *equations))
+
+    return found.map(lambda points: tuple(map(whole, points)))
+
+
+def _without_given(equations: Equations) -> tuple[Equations, list[Substitution]]:
+    """Equations in the variables that no equation of first degree gives, and what these give."""
+    left, given = equations, list[Substitution]()
+    while (step := next(filter(None, map(_given_by, left)), None)) is not None:
+        left = tuple(p for p in step.apply(left) if p)
+        given.append(step)
+    ring, names = equations[0].ring, {step.name for step in given}
+    own = ring.with_names(tuple(n for n in ring.names if n not in names))
+    return tuple(map(own.convert, left)), given
+
+
+def _given_by(equation: Polynomial) -> Substitution | None:
+    constants = {c.name for c in equation.ring.constants}
+    if equation.total_degree != 1 or constants.intersection(equation.variables):
+        return None
+    return solved_variable(equation)
+
+
+def _with_values(point: BoxPoint, given: Sequence[Substitution], ring: Ring) -> BoxPoint:
+    """The point in a larger ring, with the values of the variables that were given, the last one first."""
+    with at_precision(PRECISIONS[0]):
+        known = _balls(point, PRECISIONS[0])
+        for step in reversed(given):
+            known[step.name] = value_at(step.value, known)
+    equations = (*map(ring.convert, point.equations), *(step.equation for step in given))
+    return box_around(equations, known)
+
+
+def _of_modules(equations: Equations) -> Known[tuple[BoxPoint, ...]]:
     solving = _Solving(equations[0].ring, block_form(equations))
     failure = Undecided("no precision was tried")
     for bits in PRECISIONS:
@@ -132,7 +192,7 @@ class _Solving:
             if loose & set(module.parents):
                 loose |= set(module.unknowns)
                 continue
-            alone = constants.issuperset(module.parents)
+            alone = constants.issuperset(module.parents) and dyad(module) is None
             if alone or is_simple(module):
                 steps.append(_Step((module,), alone))
                 continue

@@ -1,0 +1,83 @@
+"""Sets that come apart because a few of their equations do: a dyad in line is stretched, or folded.
+
+Source: V(I + J) is the disjoint union of all V(I_k + J) where V(I) is that of all V(I_k).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+
+from singsym.effort import patience
+from singsym.effort.attempts import attempt
+from singsym.elimination.ideal import Ideal
+from singsym.elimination.memo import remember
+from singsym.polynomials import Equations, Polynomial
+from singsym.varieties.decomposition import Component, decompose
+
+MOST_VARIABLES = 6
+"""Equations in more variables than two points that move and one more are not taken apart."""
+
+
+def disjoint_parts(equations: Equations) -> tuple[Equations, ...]:
+    """The same zeros as a disjoint union; `equations` alone where they are not seen to come apart.
+
+    >>> from singsym.polynomials import Ring
+    >>> x, y, u, v, w = Ring(("x", "y", "u", "v", "w")).gens
+    >>> dyad = ((u - x) ** 2 + (v - y) ** 2 - 49, (u - 3) ** 2 + (v + 1) ** 2 - 25)
+    >>> in_line = (x - 3) * (v + 1) - (y + 1) * (u - 3)
+    >>> for part in disjoint_parts((*dyad, in_line, w + u)):
+    ...     part[:3]
+    (u + w, 5*y + 2*v + 7, 5*x + 2*u - 21)
+    (u + w, 5*y - 12*v - 7, 5*x - 12*u + 21)
+    """
+    return remember("disjoint parts", (equations[0].ring, equations), lambda: tuple(_parts(equations)))
+
+
+def _parts(equations: Equations) -> Iterator[Equations]:
+    for group in _groups(equations):
+        own = _apart(group)
+        if own is not None:
+            others = tuple(p for p in equations if p not in group)
+            for part in own:
+                yield from _parts((*others, *part))
+            return
+    yield equations
+
+
+def _groups(equations: Equations) -> Iterator[Equations]:
+    """Some of the equations: all in the variables of one of them, that are more than a dyad."""
+    for last in reversed(equations):
+        names = set(last.variables)
+        group = tuple(p for p in equations if names.issuperset(p.variables))
+        if 2 < len(group) < len(equations) and len(names) <= MOST_VARIABLES:
+            yield group
+
+
+def _apart(group: Equations) -> tuple[Equations, ...] | None:
+    """Disjoint parts of a few equations, each given by as many as it has codimensions; `None` if not seen."""
+    names = {name for p in group for name in p.variables}
+    constants = {c.name for c in group[0].ring.constants} & names
+    ring = group[0].ring.with_names(tuple(n for n in group[0].ring.names if n in names))
+    with attempt("equations that come apart", patience.APART.work):
+        found = decompose(tuple(map(ring.convert, group)), ring=ring)
+        free = len(ring.names) - len(constants)
+        if found.certainty == "proven" and len(found.value) > 1 and _are_disjoint(found.value):
+            parts = [_without_relations(c) for c in found.value]
+            if all(len(p) == free - c.dimension for p, c in zip(parts, found.value, strict=True)):
+                whole = group[0].ring
+                return tuple(tuple(map(whole.convert, part)) for part in parts)
+    return None
+
+
+def _without_relations(component: Component) -> tuple[Polynomial, ...]:
+    constants = {c.name for c in component.ideal.ring.constants}
+    return tuple(p for p in component.generators if not constants.issuperset(p.variables))
+
+
+def _are_disjoint(components: tuple[Component, ...]) -> bool:
+    for one, other in combinations(components, 2):
+        empty = Ideal(one.ideal.ring, (*one.generators, *other.generators)).is_unit()
+        if not empty.value or empty.certainty != "proven":
+            return False
+    return True
