@@ -14,6 +14,7 @@ from typing import Any
 
 from singsym.mechanism.checks import MAX_JOINTS, check
 from singsym.mechanism.choices import Choice
+from singsym.mechanism.couplings import read_couplings
 from singsym.mechanism.expressions import LONG_NUMBER, DecimalText, Quantities
 from singsym.mechanism.joints import read_inputs, read_joints
 from singsym.mechanism.library import names as library_names
@@ -29,7 +30,7 @@ MAX_SIZE = 1_000_000
 KEYS = (
     "name", "title", "source", "description", "space", "ground", "formulation", "mobility",
     "inputs", "output", "parameters", "links", "joints", "dh", "limits", "exclusions",
-    "translating",
+    "couplings", "translating",
 )  # fmt: skip
 FORMULATIONS = ("auto", "planar", "spherical", "joint", "natural", "quaternion")
 # Without backtracking, and from the beginnings of words alone, so that long names take no time.
@@ -223,6 +224,7 @@ def read(data: Mapping[str, Any], origin: str = "") -> tuple[Mechanism, tuple[Pr
         parameters=parameters,
         limits=read_limits(top.get("limits", {}), known, reader),
         exclusions=read_exclusions(top.get("exclusions", {}), known, reader),
+        couplings=read_couplings(top.get("couplings", {}), known, reader),
         mobility=mobility,
         translating=tuple(reader.names(top.get("translating", []), "translating")),
         formulation=formulation,

@@ -13,6 +13,7 @@ from statistics import median_low
 
 import sympy
 
+from singsym.mechanism.couplings import is_sliding
 from singsym.mechanism.model import Exclusion, Joint, Limit, Link, Mechanism, Vector
 
 USUAL = 10
@@ -67,15 +68,20 @@ def scaled(mechanism: Mechanism, factor: Fraction) -> Mechanism:
         joints=tuple(_scaled_joint(joint, factor) for joint in mechanism.joints),
         limits=tuple(_scaled_limit(limit, factor) for limit in mechanism.limits),
         exclusions=tuple(_scaled_exclusion(exclusion, factor) for exclusion in mechanism.exclusions),
+        couplings=tuple(
+            replace(c, constant=factor * c.constant) if is_sliding(mechanism, c) else c
+            for c in mechanism.couplings
+        ),
     )
 
 
 def _lengths(mechanism: Mechanism) -> Iterator[sympy.Expr]:
-    """The lengths in a mechanism: coordinates of points, pitches, bounds of lengths."""
+    """The lengths in a mechanism: coordinates of points, pitches, sums and bounds of lengths."""
     for link in mechanism.links:
         for point in link.points.values():
             yield from point
     yield from (joint.pitch for joint in mechanism.joints if joint.pitch is not None)
+    yield from (c.constant for c in mechanism.couplings if is_sliding(mechanism, c))
     for limit in mechanism.limits:
         if _degree(limit.expression) == 1:
             yield from (bound for bound in (limit.low, limit.high) if bound is not None)

@@ -36,6 +36,14 @@ def mechanism_data(mechanism: Mechanism, equation: VelocityEquation) -> dict[str
             {"name": j.name, "kind": j.kind.value, "links": [j.first, j.second], "columns": list(j.columns)}
             for j in mechanism.joints
         ],
+        "couplings": [
+            {
+                "name": c.name,
+                "rates": {column: str(x) for column, x in c.terms},
+                "constant": str(c.constant),
+            }
+            for c in mechanism.couplings
+        ],
         **equation_data(equation),
     }
 

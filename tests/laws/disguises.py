@@ -12,7 +12,7 @@ from fractions import Fraction
 
 import sympy
 
-from singsym.mechanism import JointRate, Limit, Link, Mechanism, Space
+from singsym.mechanism import Coupling, JointKind, JointRate, Limit, Link, Mechanism, Space
 from singsym.mechanism.model import Vector
 
 Disguise = Callable[[Mechanism], Mechanism]
@@ -77,9 +77,14 @@ def scaled(factor: Fraction) -> Disguise:
                 e if e.expression is None else replace(e, expression=unscaled(e.expression))
                 for e in m.exclusions
             ),
+            couplings=tuple(replace(c, constant=k * c.constant) if _slides(m, c) else c for c in m.couplings),
         )
 
     return put
+
+
+def _slides(mechanism: Mechanism, coupling: Coupling) -> bool:
+    return all(mechanism.joint(column.split(".")[0]).kind is JointKind.P for column, _ in coupling.terms)
 
 
 def _is_length(symbol: sympy.Symbol, points: set[str]) -> bool:
@@ -99,7 +104,10 @@ def mirrored(mechanism: Mechanism) -> Mechanism:
         return -symbol if odd else symbol
 
     joints = tuple(replace(j, pitch=None if j.pitch is None else -j.pitch) for j in mechanism.joints)
-    return _moved(replace(mechanism, joints=joints), turn, image)
+    couplings = tuple(
+        c if _slides(mechanism, c) else replace(c, constant=-c.constant) for c in mechanism.couplings
+    )
+    return _moved(replace(mechanism, joints=joints, couplings=couplings), turn, image)
 
 
 def turned(mechanism: Mechanism) -> Mechanism | None:
