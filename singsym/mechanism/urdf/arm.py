@@ -15,10 +15,11 @@ from typing import Any
 import sympy
 
 from singsym.mechanism.arcs import decimal_arc
-from singsym.mechanism.expressions import RESERVED
-from singsym.mechanism.model import Joint, JointKind, Limit, Link, Mechanism, Space, Vector
+from singsym.mechanism.expressions import RESERVED, expression
+from singsym.mechanism.model import Coupling, Joint, JointKind, Limit, Link, Mechanism, Space, Vector
 from singsym.mechanism.reader import LONGEST_NAME
 from singsym.mechanism.urdf.chains import Chain
+from singsym.mechanism.urdf.led import Led, with_limits
 from singsym.mechanism.urdf.numbers import Reading, across
 from singsym.mechanism.urdf.robot_file import Robot, RobotJoint
 
@@ -35,29 +36,34 @@ class _Body:
     axes: dict[str, Vector] = field(default_factory=dict)
 
 
-def arm(robot: Robot, chain: Chain, held: Collection[str]) -> tuple[Mechanism, Mapping[str, str]]:
+def arm(
+    robot: Robot, chain: Chain, held: Collection[str], led: Mapping[str, Led]
+) -> tuple[Mechanism, Mapping[str, str]]:
     """The mechanism of a chain, without outputs, and its joints' names by those of the file.
 
-    held: the joints that will be locked, which are moving ones here.
+    held: the joints that will be locked, which are moving ones here; led: those that follow others.
     Raises `MechanismError` for what the chain has that no serial mechanism has.
     """
     built = _Arm(robot)
+    chain, followed = with_limits(robot, chain, led)
     built.bodies.append(_Body(built.name(chain.base)))
     for joint in chain.joints:
-        built.add(joint, held)
+        built.add(joint, {*held, *led})
     last = built.bodies[-1]
     last.points[TOOL] = _tuple(built.shift)
+    couplings = tuple(built.coupling(name, one) for name, one in led.items())
     limits = (f"Limits of {', '.join(names)}: {words}." for words, names in built.said.items())
-    notes = (str(chain), *built.reading.notes, *limits, *built.notes)
+    notes = (str(chain), *built.reading.notes, *limits, *built.notes, *followed)
     mechanism = Mechanism(
         name=robot.name,
         space=Space.SPATIAL,
         ground=built.bodies[0].name,
         links=tuple(Link(b.name, b.points, b.axes) for b in built.bodies),
         joints=tuple(built.joints),
-        inputs=tuple(joint.name for joint in built.joints),
+        inputs=tuple(new for old, new in built.names.items() if old not in led),
         outputs=(),
         limits=tuple(built.limits),
+        couplings=couplings,
         description="\n".join(notes),
         source=f"URDF file {Path(robot.file).name}",
         origin=robot.file,
@@ -89,14 +95,22 @@ class _Arm:
         self.used.add(clean)
         return clean
 
-    def add(self, joint: RobotJoint, held: Collection[str]) -> None:
+    def coupling(self, name: str, led: Led) -> Coupling:
+        """Of a joint to its leader, both there."""
+        new, leader = self.names[name], self.names[led.leader]
+        turning = next(joint for joint in self.joints if joint.name == new).kind is JointKind.R
+        offset = float(led.offset)
+        constant = self.reading.multiple(offset) if turning else self.reading.length(offset)
+        return Coupling(new, ((new, sympy.Integer(1)), (leader, -expression(led.multiplier))), constant)
+
+    def add(self, joint: RobotJoint, known: Collection[str]) -> None:
         """Append one URDF joint: a fixed one moves the pose on, another starts a new body."""
         here = sympy.Matrix([self.reading.length(x) for x in joint.xyz])
         self.shift = (self.shift + self.turn * here).applyfunc(sympy.expand)
         self.turn = (self.turn * self.reading.rotation(joint.rpy, joint.name)).applyfunc(sympy.expand)
         if joint.kind == "fixed":
             return
-        if joint.mimic is not None and joint.name not in held:
+        if joint.mimic is not None and joint.name not in known:
             leader = joint.mimic.joint
             self.notes.append(f"Joint {joint.name} follows {leader}, which is not in the chain: an input.")
         name, old = self.name(joint.name), self.bodies[-1]
