@@ -6,6 +6,9 @@ Lemma. On the circles a relation sum a_k theta_k = phi says that a product of po
 u_k = c_k + i s_k is exp(i phi): one equation on a torus, whose derivative along a motion is i exp(i phi)
 times sum a_k omega_k. Its real and imaginary part generate the same ideal there, so that a coupling is one
 smooth hypersurface, whose tangents have the rates of the velocity equation.
+
+Lemma. In all ways to mount k screws and racks, these ask for nothing: L without k rows, which has at most k
+motions more; where L has rank N, exactly k more, and the space of all mountings has dimension n + k.
 """
 
 from __future__ import annotations
@@ -17,7 +20,7 @@ import sympy
 
 from singsym.kinematics.dimensions import dimensions
 from singsym.kinematics.placement import JointValue, Placement
-from singsym.mechanism.couplings import Relation, angle_relations, slide_relations
+from singsym.mechanism.couplings import Relation, angle_relations, mountings, slide_relations
 from singsym.mechanism.model import Mechanism
 from singsym.mechanism.problems import MechanismError, Problem
 from singsym.polynomials import Polynomial
@@ -29,13 +32,13 @@ Complex = tuple[Polynomial, Polynomial]
 
 
 def coupled(mechanism: Mechanism, placed: Placement) -> Placement:
-    """The placement with the relations of the mechanism's couplings among its equations.
+    """The placement with the relations of the mechanism's couplings among its equations, and its mountings.
 
     Raises `MechanismError` for a joint whose value the formulation does not know.
     """
+    space = replace(placed.space, mountings=mountings(mechanism))
     if not mechanism.couplings:
-        return placed
-    space = placed.space
+        return replace(placed, space=space)
     circles = tuple(circle(*map(space.ring.gen, pair)) for pair in unit_circles(space.equations))
     shorten = short_forms(space.ring, circles).shorten
     found = [shorten(space.ring.reduced(e)).primitive() for e in _equations(mechanism, placed)]

@@ -1,4 +1,4 @@
-"""Couplings: gears, belts, chains, differentials, as linear relations between the rates of joints.
+"""Couplings: gears, belts, differentials, racks, as linear relations between the rates of joints.
 
 Source: textbook gear ratios; whole relations between angles as sublattices of Z^m (Cohen, A Course in
 Computational Algebraic Number Theory (1993), section 2.4, the Hermite normal form).
@@ -6,6 +6,10 @@ Computational Algebraic Number Theory (1993), section 2.4, the Hermite normal fo
 With whole coefficients a, the angles of coupled joints satisfy a . theta = constant, and are known modulo
 full turns.  Where the rows a span all whole vectors of their rational span, the angles that satisfy this
 modulo full turns are those that are reached from one such configuration: gears that turn on come to each.
+
+A rack, or a screw, ties an angle to a length, and no polynomial in its cosine and sine and the length
+vanishes on the helix that they are on.  All helices together, one for each way to mount the rack, are all
+angles and lengths: these are the configurations, and the mounting is one dimension that no motion has.
 """
 
 from __future__ import annotations
@@ -20,7 +24,7 @@ import sympy
 from flint import fmpq, fmpq_mat, fmpz_mat
 
 from singsym.mechanism.expressions import Quantities, is_angle
-from singsym.mechanism.model import Coupling, Mechanism
+from singsym.mechanism.model import Coupling, JointKind, Mechanism
 from singsym.mechanism.outputs import quantities
 from singsym.mechanism.reader import Reader
 
@@ -56,8 +60,10 @@ def read_couplings(value: Any, known: Quantities, reader: Reader) -> tuple[Coupl
             (column, reader.expression(number, f"{place}.rates.{column}")) for column, number in rates.items()
         )
         given, where = read.get("constant", 0), f"{place}.constant"
-        sliding = any(column in known.slides for column in rates)
-        constant = reader.expression(given, where) if sliding else reader.angle(given, where)
+        sliding = [column in known.slides for column in rates]
+        constant = reader.expression(given, where) if any(sliding) else reader.angle(given, where)
+        if any(sliding) and not all(sliding) and "constant" not in read:
+            constant = None
         couplings.append(Coupling(name, terms, constant))
     return tuple(couplings)
 
@@ -98,14 +104,16 @@ def _faults(coupling: Coupling, mechanism: Mechanism, known: Quantities) -> Iter
     slides = [column for column in columns if column in known.slides]
     turns = [column for column in columns if column in known.angles]
     if slides and turns:
-        found = f"the slide {slides[0]} with the angle {turns[0]}"
-        advice = (
-            "of a rack that carries nothing else, take the pinion's joint for the slide: its rate is "
-            "proportional, so that the singularities are the same"
-        )
-        yield place, found, "joints that all turn or all slide: an angle is not algebraic in a length", advice
+        if coupling.constant is not None:
+            found = f"a constant, of the slide {slides[0]} with the angle {turns[0]}"
+            expected = (
+                "none: an angle is not algebraic in a length, and all ways to mount a rack are looked at"
+            )
+            yield f"{place}.constant", found, expected, "leave it out"
+    elif coupling.constant is None:
+        yield f"{place}.constant", "no constant", "that of the joints' values, as 0", ""
     elif turns and all(number.is_Rational and number for _, number in coupling.terms):
-        largest = max(abs(number) for _, number in _coprime(coupling).terms)
+        largest = max(abs(x) for _, x in _coprime(coupling.terms, coupling.constant).terms)
         if largest > LARGEST:
             yield place, f"coprime whole coefficients up to {largest}", f"at most {LARGEST}", ""
         if not is_angle(coupling.constant):
@@ -154,31 +162,39 @@ def _matrix(couplings: Sequence[Coupling], columns: Sequence[str]) -> fmpq_mat:
 
 
 def is_sliding(mechanism: Mechanism, coupling: Coupling) -> bool:
-    """Whether a coupling is one of slides, so that its constant is a length."""
+    """Whether a coupling is one of slides alone, so that its constant is a length."""
     known = quantities(mechanism.space, mechanism.links, mechanism.joints)
-    return any(column in known.slides for column, _ in coupling.terms)
+    return all(column in known.slides for column, _ in coupling.terms)
+
+
+def turning_terms(mechanism: Mechanism, coupling: Coupling) -> tuple[str, ...]:
+    """The angles of a coupling."""
+    known = quantities(mechanism.space, mechanism.links, mechanism.joints)
+    return tuple(column for column, _ in coupling.terms if column not in known.slides)
+
+
+def mountings(mechanism: Mechanism) -> tuple[str, ...]:
+    """The screws and the racks, which may be mounted in any way."""
+    racks = (coupling.name for coupling in mechanism.couplings if coupling.constant is None)
+    return (*(joint.name for joint in mechanism.joints if joint.kind is JointKind.H), *racks)
 
 
 def slide_relations(mechanism: Mechanism) -> tuple[Relation, ...]:
     """The relations between lengths of slides."""
-    resolved = mechanism.resolved
-    return tuple(Relation(c.terms, c.constant) for c in resolved.couplings if is_sliding(mechanism, c))
+    couplings = [c for c in mechanism.resolved.couplings if is_sliding(mechanism, c)]
+    return tuple(Relation(c.terms, c.constant) for c in couplings if c.constant is not None)
 
 
 def angle_relations(mechanism: Mechanism) -> tuple[Relation, ...]:
     """The whole relations between angles, as many as couplings, from which all others follow."""
-    resolved = mechanism.resolved
-    return _whole([_coprime(c) for c in resolved.couplings if not is_sliding(mechanism, c)])
+    couplings = [c for c in mechanism.resolved.couplings if not is_sliding(mechanism, c)]
+    return _whole([_coprime(c.terms, c.constant) for c in couplings if c.constant is not None])
 
 
-def _coprime(coupling: Coupling) -> Relation:
-    """A coupling of angles with coprime whole coefficients; its constant is divided with them."""
-    factor = sympy.Rational(
-        lcm(*(int(number.q) for _, number in coupling.terms)),
-        gcd(*(int(number.p) for _, number in coupling.terms)),
-    )
-    terms = tuple((column, number * factor) for column, number in coupling.terms)
-    return Relation(terms, coupling.constant * factor)
+def _coprime(terms: Sequence[tuple[str, sympy.Rational]], constant: sympy.Expr) -> Relation:
+    """A relation between angles with coprime whole coefficients; its constant is divided with them."""
+    factor = sympy.Rational(lcm(*(int(x.q) for _, x in terms)), gcd(*(int(x.p) for _, x in terms)))
+    return Relation(tuple((column, x * factor) for column, x in terms), constant * factor)
 
 
 def _whole(relations: Sequence[Relation]) -> tuple[Relation, ...]:

@@ -176,15 +176,16 @@ class Exclusion:
 
 @dataclass(frozen=True)
 class Coupling:
-    """Gears, a belt, a differential: a sum of multiples of rates that is zero, all of turns or all of slides.
+    """Gears, a belt, a differential, a rack: a sum of multiples of joint rates that is zero.
 
-    terms: column label and rational coefficient.
-    constant: the same sum of the joints' values, an angle in radians, modulo full turns of each, or a length.
+    terms: column label and rational coefficient; of turns beside slides that of a turn is a length.
+    constant: the same sum of the joints' values, an angle in radians, modulo full turns of each, or a length;
+        None for turns beside slides, which may be mounted in any way.
     """
 
     name: str
     terms: tuple[tuple[str, sympy.Expr], ...]
-    constant: sympy.Expr = sympy.S.Zero
+    constant: sympy.Expr | None = sympy.S.Zero
 
 
 @dataclass(frozen=True)

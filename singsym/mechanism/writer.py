@@ -68,7 +68,8 @@ def dumps(mechanism: Mechanism) -> str:
 
 def _coupling(coupling: Coupling) -> str:
     rates = ", ".join(f"{_quote(column)} = {_number(x)}" for column, x in coupling.terms)
-    return f"{coupling.name} = {{ rates = {{ {rates} }}, constant = {_number(coupling.constant)} }}"
+    constant = "" if coupling.constant is None else f", constant = {_number(coupling.constant)}"
+    return f"{coupling.name} = {{ rates = {{ {rates} }}{constant} }}"
 
 
 def _joints(mechanism: Mechanism) -> list[str]:

@@ -40,7 +40,7 @@ def mechanism_data(mechanism: Mechanism, equation: VelocityEquation) -> dict[str
             {
                 "name": c.name,
                 "rates": {column: str(x) for column, x in c.terms},
-                "constant": str(c.constant),
+                "constant": None if c.constant is None else str(c.constant),
             }
             for c in mechanism.couplings
         ],

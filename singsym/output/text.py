@@ -102,7 +102,8 @@ def coupling_text(coupling: Coupling) -> str:
     from sympy import Add, Symbol
 
     total = Add(*(number * Symbol(column) for column, number in coupling.terms))
-    return f"{coupling.name}, {total} = {coupling.constant}"
+    constant = "constant" if coupling.constant is None else f"= {coupling.constant}"
+    return f"{coupling.name}, {total} {constant}"
 
 
 def _parameter_text(parameter: Parameter) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -170,3 +171,108 @@ def test_a_symmetric_five_bar_by_hand() -> None:
         T.RI | T.RO | T.IIM: (0, 1),
         T.RI | T.IO: (0, 2),
     }
+
+
+def wheel(radius: int, arm: int, component: str) -> Mechanism:
+    """A wheel that rolls on a line: its hub slides along x by P, and it turns by R; T is a point of it."""
+    return define(
+        inputs=["R"],
+        output={"velocity": "T", "components": [component]},
+        links={
+            "ground": {"points": {"O": [0, 0]}, "axes": {"x": [1, 0]}},
+            "hub": {"points": {"R": [0, 0]}, "axes": {"x": [1, 0]}},
+            "wheel": {"points": {"R": [0, 0], "T": [arm, 0]}},
+        },
+        joints={"P": {"type": "P", "links": ["ground", "hub"], "at": ["O", "R"], "axis": "x"}, "R": "R"},
+        couplings={"rolling": {"rates": {"P": 1, "R": radius}}},
+    )
+
+
+@pytest.mark.parametrize(("arm", "lines"), [(3, 2), (1, 0)])
+def test_a_rolling_wheel_by_hand(arm: int, lines: int) -> None:
+    """T has the velocity (-r - l sin R, l cos R) for a unit rate of R, with r = 2.
+
+    Along y it rests twice in a turn, along x at two angles where l > r, wherever the wheel is: these are
+    lines in the plane of angle and length, of which the mounting is one dimension.
+    """
+    for component, count in (("x", lines), ("y", 2)):
+        result = classify(wheel(2, arm, component), cache=False)
+        assert result.parameters_note == "dimensions count how rolling is mounted, which may vary"
+        assert singular(result) == ({T.RI | T.IO: (1, count)} if count else {})
+        assert [(s.dimension, s.smooth) for s in result.configuration_space] == [(2, "yes")]
+
+
+def test_a_wheel_in_disguise() -> None:
+    plain = classification_data(classify(wheel(2, 3, "x"), cache=False))
+    for disguise in (mirrored, scaled(Fraction(700, 3)), reordered):
+        other = classification_data(classify(disguise(wheel(2, 3, "x")), cache=False))
+        assert not contradictions(plain, other, same_names=False)
+
+
+def test_a_wheel_that_drives_a_dyad() -> None:
+    """A rod TC and a rocker CD on T: dead where T, C, D are in line, so at TD = 2 + 3 and at TD = 3 - 2.
+
+    T is at (x + 3 cos R, 3 sin R), D at (0, -1).  In the plane of R and x TD = 5 is a curve on each side, as
+    the heights differ by 4 at most, and TD = 1 closed curves about R = 0 and R = pi.  There the wheel can
+    move too where T moves at right angles to TD, (RI, RO, IIM); such points are counted by changes of sign.
+    """
+    base = wheel(2, 3, "x")
+    mechanism = define(
+        inputs=["R"],
+        output={"rate": "D"},
+        links={
+            "ground": {"points": {"O": [0, 0], "D": [0, -1]}, "axes": {"x": [1, 0]}},
+            **{k.name: {"points": dict(k.points), "axes": dict(k.axes)} for k in base.links[1:]},
+            "TC": 3,
+            "CD": 2,
+        },
+        joints={
+            "P": {"type": "P", "links": ["ground", "hub"], "at": ["O", "R"], "axis": "x"},
+            **dict.fromkeys("RTCD", "R"),
+        },
+        couplings={"rolling": {"rates": {"P": 1, "R": 2}}},
+    )
+    result = classify(mechanism, cache=False)
+    assert not result.undecided
+    R = np.linspace(0, 2 * np.pi, 40001) + 1e-3
+    height, sideways, upwards = 3 * np.sin(R) + 1, -2 - 3 * np.sin(R), 3 * np.cos(R)
+    meeting = 0
+    for reach in (5, 1):
+        square = reach**2 - height**2
+        for side in (1, -1):
+            rate = side * np.sqrt(np.maximum(square, 0)) * sideways + height * upwards
+            meeting += int(np.sum((np.diff(np.sign(rate)) != 0) & (square[1:] > 0) & (square[:-1] > 0)))
+    found = singular(result)
+    assert found.keys() == {T.RO | T.II, T.RI | T.IO, T.RI | T.RO | T.IIM}
+    assert found[T.RO | T.II] == (1, 4)
+    assert found[T.RI | T.RO | T.IIM] == (0, meeting)
+    assert [(s.dimension, s.smooth) for s in result.configuration_space] == [(2, "undecided")]
+
+
+def test_a_screw_is_mounted_in_any_way() -> None:
+    """H along x with pitch 1, then R about z, T 2 from it: of mobility 2, and one dimension more.
+
+    T moves in the (y, z)-directions of the ground by 2 sin B, up to the turn of H, along both joints' rates
+    where this is not 0: the class has dimension 2 of 3, and is no piece of the space.
+    """
+    mechanism = define(
+        space="spatial",
+        inputs=["A", "B"],
+        output={"velocity": "T", "components": ["y", "z"]},
+        links={
+            "ground": {"points": {"A0": [0, 0, 0]}, "axes": {"x": [1, 0, 0]}},
+            "one": {
+                "points": {"A1": [0, 0, 0], "B": [0, 1, 0]},
+                "axes": {"x": [1, 0, 0], "z": [0, 0, 1]},
+            },
+            "two": {"points": {"B": [0, 0, 0], "T": [2, 0, 0]}, "axes": {"z": [0, 0, 1]}},
+        },
+        joints={
+            "A": {"type": "H", "links": ["ground", "one"], "at": ["A0", "A1"], "axis": "x", "pitch": 1},
+            "B": {"type": "R", "axis": "z"},
+        },
+    )
+    result = classify(mechanism, cache=False)
+    assert not result.undecided
+    assert [(s.dimension, s.smooth) for s in result.configuration_space] == [(3, "yes")]
+    assert {c.types: c.dimension for c in result.classes if c.verdict.is_yes} == {T.RI | T.IO: 2}

@@ -12,7 +12,7 @@ import pytest
 import sympy
 
 from singsym.mechanism import Coupling, Mechanism, MechanismError, check, define, dumps, loads
-from singsym.mechanism.couplings import angle_relations, slide_relations
+from singsym.mechanism.couplings import angle_relations, mountings, slide_relations
 from singsym.mechanism.locking import locked
 from singsym.mechanism.units import own_unit, scaled
 
@@ -124,9 +124,19 @@ def test_the_same_name_twice_in_python() -> None:
     assert "couplings.gears: found 2 couplings of this name" in "\n".join(map(str, check(twice)))
 
 
-def test_a_rack_is_refused_with_a_way_out() -> None:
-    with pytest.raises(MechanismError, match=r"the slide P with the angle R.*take the pinion's joint"):
-        slides(gears({"P": 1, "R": 2}))
+def test_of_a_rack_the_rates_alone_are_said() -> None:
+    mechanism = slides(gears({"P": 1, "R": "1/2"}))
+    assert mechanism.couplings[0].constant is None
+    assert (angle_relations(mechanism), slide_relations(mechanism)) == ((), ())
+    assert mountings(mechanism) == ("gears",)
+    assert loads(dumps(mechanism)) == mechanism
+    with pytest.raises(
+        MechanismError, match=r"gears.constant: .*the slide P with the angle R; .*leave it out"
+    ):
+        slides(gears({"P": 1, "R": 2}, constant=0))
+    turning = arm(gears({"A": 1, "B": 2}))
+    open_end = replace(turning, couplings=(replace(turning.couplings[0], constant=None),))
+    assert "gears.constant: found no constant" in "\n".join(map(str, check(open_end)))
 
 
 def test_a_freedom_without_an_angle_is_refused() -> None:
@@ -187,5 +197,7 @@ def test_lengths_scale_with_the_unit() -> None:
     bigger = scaled(mechanism, Fraction(1000))
     assert slide_relations(bigger)[0].constant == 3000
     assert own_unit(bigger) == 1000 * own_unit(mechanism)
+    rack = scaled(slides(gears({"P": 1, "R": "1/2"})), Fraction(1000))
+    assert rack.couplings[0].terms == (("P", 1), ("R", 500))
     turning = arm(gears({"A": 1, "B": 2}, constant="90 deg"))
     assert scaled(turning, Fraction(1000)).couplings == turning.couplings
