@@ -42,9 +42,9 @@ _BARE = re.compile(r"[=\[,]\s*((?:[\d.]+\s*[-+*/^]|sqrt\s*\(|sin\s*\(|cos\s*\(|p
 
 
 def load(name: str | Path, choice: Choice | None = None) -> Mechanism:
-    """The checked mechanism of a file, TOML or URDF, or of a name in the library.
+    """The checked mechanism of a file, TOML, URDF or MJCF, or of a name in the library.
 
-    choice: the chain of a URDF file; joints that are held, components of the output.
+    choice: the chain of a URDF file, the tip of an MJCF file; joints that are held, components of the output.
     Raises `MechanismError` with every problem, `FileNotFoundError` where there is no such file or name.
 
     >>> hybrid = load("zlatanov-hybrid").with_parameters(a="3/2")
@@ -59,8 +59,11 @@ def load(name: str | Path, choice: Choice | None = None) -> Mechanism:
         advice = f"did you mean {' or '.join(close)}?" if close else "singsym list shows the library"
         raise FileNotFoundError(f"no file and no mechanism of the library is called {name}; {advice}")
     if is_robot_file(path):
+        from singsym.mechanism.mjcf import from_mjcf, is_mjcf
         from singsym.mechanism.urdf import from_urdf
 
+        if is_mjcf(path):
+            return from_mjcf(path, choice)
         return from_urdf(path, choice)
     return _chosen(read_text(path), str(name), choice)
 

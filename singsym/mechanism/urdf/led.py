@@ -10,7 +10,7 @@ they are where they are in the file.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
@@ -41,29 +41,37 @@ def led_joints(robot: Robot, chain: Chain, held: Mapping[str, Any]) -> dict[str,
     Raises `MechanismError` for those that no coupling can say.
     """
     free = {joint.name: joint for joint in chain.moving if joint.name not in held}
+    relations = {
+        joint.name: Led(mimic.joint, Fraction(repr(mimic.multiplier)), Fraction(repr(mimic.offset)))
+        for joint in free.values()
+        if (mimic := joint.mimic) is not None and mimic.joint in free
+    }
     found = {}
-    for joint in free.values():
-        if joint.mimic is not None and joint.mimic.joint in free:
-            led = _led(robot, joint, free)
-            if fault := _fault(joint, led, free):
-                raise _refused(robot, chain, joint, led, free, *fault)
-            found[joint.name] = led
+    for name in relations:
+        led = composed(name, relations)
+        if led is None:
+            raise robot.fault(f"joint {name}", "joints that follow each other", "one that moves on its own")
+        if fault := _fault(free[name], led, free):
+            raise _refused(robot, chain, free[name], led, free, *fault)
+        found[name] = led
     return found
 
 
-def _led(robot: Robot, joint: RobotJoint, free: Mapping[str, RobotJoint]) -> Led:
-    """What a joint follows in the end, where leaders follow others."""
-    multiplier, offset, leader, seen = Fraction(1), Fraction(0), joint, [joint.name]
-    while leader.mimic is not None and leader.mimic.joint in free:
-        mimic = leader.mimic
-        offset += multiplier * Fraction(repr(mimic.offset))
-        multiplier *= Fraction(repr(mimic.multiplier))
-        leader = free[mimic.joint]
-        if leader.name in seen:
-            found = f"joints that follow each other: {', '.join(seen)}"
-            raise robot.fault(f"joint {joint.name}", found, "one that moves on its own")
-        seen.append(leader.name)
-    return Led(leader.name, multiplier, offset)
+def composed(name: str, relations: Mapping[str, Led]) -> Led | None:
+    """What a joint follows in the end, where leaders follow others; None where they follow each other.
+
+    >>> twice = {"B": Led("A", Fraction(2), Fraction(1)), "C": Led("B", Fraction(-1), Fraction(0))}
+    >>> composed("C", twice)
+    Led(leader='A', multiplier=Fraction(-2, 1), offset=Fraction(-1, 1))
+    """
+    multiplier, offset, leader, seen = Fraction(1), Fraction(0), name, {name}
+    while leader in relations:
+        one = relations[leader]
+        offset, multiplier, leader = offset + multiplier * one.offset, multiplier * one.multiplier, one.leader
+        if leader in seen:
+            return None
+        seen.add(leader)
+    return Led(leader, multiplier, offset)
 
 
 def _fault(joint: RobotJoint, led: Led, free: Mapping[str, RobotJoint]) -> tuple[str, ...]:
@@ -116,25 +124,56 @@ def with_limits(robot: Robot, chain: Chain, led: Mapping[str, Led]) -> tuple[Cha
     """
     joints = {joint.name: joint for joint in chain.joints}
     notes = [f"Joint {name} follows {one.leader}, coupled: {_relation(one)}." for name, one in led.items()]
-    for leader in dict.fromkeys(one.leader for one in led.values()):
-        if joints[leader].kind == "prismatic":
-            continue
-        group = {leader: Led(leader, Fraction(1), Fraction(0))}
-        group |= {name: one for name, one in led.items() if one.leader == leader}
-        low, high = _common(robot, [joints[name] for name in group], list(group.values()))
-        limited = [joints[name] for name in group if joints[name].lower != joints[name].upper]
-        cleared = {joint.name: replace(joint, lower=None, upper=None) for joint in limited}
-        if math.isfinite(low) and math.isfinite(high):
-            carrier = next(filter(None, _carriers(group)), None)
-            if carrier is None:
-                found = f"limits of {leader} and {', '.join(list(group)[1:])}, none a whole multiple of one"
-                raise robot.fault(f"joint {leader}", found, "a ratio that is whole", f"hold {leader}")
-            one = group[carrier]
-            ends = sorted(float(one.multiplier) * end + float(one.offset) for end in (low, high))
-            cleared[carrier] = replace(joints[carrier], lower=ends[0], upper=ends[1])
+    for leader, group in groups(led).items():
+        limits = {name: _limits(robot, joints[name]) for name in group if joints[name].kind != "prismatic"}
+        known = {name: ends for name, ends in limits.items() if ends is not None}
+        try:
+            shared = shared_limits(group, known)
+        except ValueError as fault:
+            found, expected = str(fault), "limits that one of them can have for all"
+            raise robot.fault(f"joint {leader}", found, expected, f"hold {leader}") from None
+        joints |= {name: replace(joints[name], lower=None, upper=None) for name in known}
+        if shared is not None:
+            carrier, ends = shared
+            joints[carrier] = replace(joints[carrier], lower=ends[0], upper=ends[1])
             notes.append(f"Limits of {', '.join(group)} together are put on {carrier}.")
-        joints |= cleared
     return replace(chain, joints=tuple(joints[joint.name] for joint in chain.joints)), tuple(notes)
+
+
+def groups(led: Mapping[str, Led]) -> dict[str, dict[str, Led]]:
+    """By the joint that they follow, those that follow one, and before these itself."""
+    found: dict[str, dict[str, Led]] = {}
+    for name, one in led.items():
+        group = found.setdefault(one.leader, {one.leader: Led(one.leader, Fraction(1), Fraction(0))})
+        group[name] = one
+    return found
+
+
+def shared_limits(group: Mapping[str, Led], limits: Mapping[str, Interval]) -> tuple[str, Interval] | None:
+    """A turning joint of which all of a group are whole multiples, and its range by the limits of all.
+
+    None where a side is without a limit.  Raises `ValueError`, with what is found, where there is no such
+    joint, or no range.
+
+    >>> group = groups({"B": Led("A", Fraction(2), Fraction(0))})["A"]
+    >>> shared_limits(group, {"A": (-3, 3), "B": (-1, 1)})
+    ('A', (-0.5, 0.5))
+    """
+    low, high = -math.inf, math.inf
+    for name, ends in limits.items():
+        multiplier, offset = float(group[name].multiplier), float(group[name].offset)
+        first, last = sorted((end - offset) / multiplier for end in ends)
+        low, high = max(low, first), min(high, last)
+    if not low < high:
+        raise ValueError(f"limits of {', '.join(group)} without a common range")
+    if not (math.isfinite(low) and math.isfinite(high)):
+        return None
+    carrier = next(filter(None, _carriers(group)), None)
+    if carrier is None:
+        raise ValueError(f"limits of {', '.join(group)}, of which none tells where the others are")
+    one = group[carrier]
+    first, last = sorted(float(one.multiplier) * end + float(one.offset) for end in (low, high))
+    return carrier, (first, last)
 
 
 def _carriers(group: Mapping[str, Led]) -> Iterator[str]:
@@ -144,21 +183,11 @@ def _carriers(group: Mapping[str, Led]) -> Iterator[str]:
             yield name
 
 
-def _common(robot: Robot, joints: Sequence[RobotJoint], group: Sequence[Led]) -> Interval:
-    """What the limits of all leave of the leader's values."""
-    low, high = -math.inf, math.inf
-    for joint, one in zip(joints, group, strict=True):
-        if joint.lower is None or joint.upper is None or joint.lower == joint.upper:
-            continue
-        if joint.lower > joint.upper:
-            found = f"the limits {joint.lower:g} and {joint.upper:g}"
-            raise robot.fault(f"joint {joint.name}", found, "the lower limit first")
-        multiplier, offset = float(one.multiplier), float(one.offset)
-        first, last = sorted((end - offset) / multiplier for end in (joint.lower, joint.upper))
-        low, high = max(low, first), min(high, last)
-    if not low < high:
-        names = ", ".join(joint.name for joint in joints)
-        raise robot.fault(
-            f"joint {joints[0].name}", f"limits of {names} without a common range", "limits that fit"
-        )
-    return low, high
+def _limits(robot: Robot, joint: RobotJoint) -> Interval | None:
+    """The range of a joint; None where it has none, or both ends are the same and it is not meant."""
+    if joint.lower is None or joint.upper is None or joint.lower == joint.upper:
+        return None
+    if joint.lower > joint.upper:
+        found = f"the limits {joint.lower:g} and {joint.upper:g}"
+        raise robot.fault(f"joint {joint.name}", found, "the lower limit first")
+    return joint.lower, joint.upper

@@ -114,10 +114,10 @@ def test_limits_are_put_on_one(
         (
             'joint="to_s2" multiplier="1.5"',
             ("", "-1 1", ""),
-            r"none a whole multiple of one; .*ratio that is whole",
+            r"limits of to_s2, to_s3, of which none tells where the others are; .*hold to_s2",
         ),
         ('joint="to_s2"', ("", "-1 1", "2 3"), r"limits of to_s2, to_s3 without a common range"),
-        ('joint="to_s3"', ("", "", ""), r"joints that follow each other: to_s3"),
+        ('joint="to_s3"', ("", "", ""), r"joint to_s3: found joints that follow each other"),
     ],
 )
 def test_what_cannot_be_coupled_is_named(
