@@ -57,6 +57,7 @@ def equation_data(equation: VelocityEquation) -> dict[str, Any]:
         "formulation": space.formulation,
         "variables": list(space.variables),
         "parameters": list(space.parameters),
+        "mountings": list(space.mountings),
         "constants": {c.name: c.text for c in space.ring.constants},
         "equations": [str(e) for e in space.equations],
         "exclusions": [[str(e) for e in group] for group in space.exclusions],
@@ -140,6 +141,7 @@ def classification_data(found: Classification) -> dict[str, Any]:
         "N": found.equation.N,
         "n": found.equation.n,
         "parameters": list(found.equation.space.parameters),
+        "mountings": list(found.equation.space.mountings),
         "configuration_space": [
             {
                 **extent_data(piece.extent),

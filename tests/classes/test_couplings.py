@@ -197,6 +197,7 @@ def test_a_rolling_wheel_by_hand(arm: int, lines: int) -> None:
     """
     for component, count in (("x", lines), ("y", 2)):
         result = classify(wheel(2, arm, component), cache=False)
+        assert classification_data(result)["mountings"] == ["rolling"]
         assert result.parameters_note == "dimensions count how rolling is mounted, which may vary"
         assert singular(result) == ({T.RI | T.IO: (1, count)} if count else {})
         assert [(s.dimension, s.smooth) for s in result.configuration_space] == [(2, "yes")]
