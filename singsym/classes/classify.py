@@ -228,7 +228,7 @@ class _Work:
         """A stratum to be realised; delta: that of its configurations, where it is known.
 
         Lemma: a configuration that moves along a set of dimension d has as many independent motions, which
-        are n + delta at most, as every motion of the links moves a joint; and parameters may vary.
+        are n + delta at most, as every motion of the links moves a joint; parameters and mountings may vary.
         """
         limits = self.limits
         task = RealTask(
@@ -236,7 +236,7 @@ class _Work:
         )
         if self.mechanism is None or delta is None:
             return task
-        most = self.equation.n + delta + len(self.equation.space.parameters)
+        most = self.equation.n + delta + self.equation.space.varying
         coordinates = local_coordinates(self.mechanism, self.equation, found.stratum.defects.types)
         return replace(task, most=most, coordinates=coordinates)
 

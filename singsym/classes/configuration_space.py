@@ -48,7 +48,7 @@ def configuration_space(
     """
     smooth, why = _is_smooth(mechanism, conditions, classes)
     kept = ", ".join(mechanism.translating) if mechanism else ""
-    usual = conditions.equation.n + len(conditions.equation.space.parameters)
+    usual = conditions.equation.n + conditions.equation.space.varying
     regular = [p for p in pieces if not p.path and not p.verdict.is_no]
     found = []
     for piece in regular:
@@ -98,11 +98,12 @@ def _is_smooth(
     increased = [c for c in classes if SingularityType.IIM in c.types]
     parameters = conditions.equation.space.parameters
     # of a mode alone the loop equations are not all, and an L of one's own need not be their derivative: the
-    # lemmas say nothing of these
+    # lemmas say nothing of these, nor does the second of a space of all mountings
     if mechanism is not None and not mechanism.translating:
         if all(c.verdict.is_no for c in increased):
             return "yes", _resting_on_primes(increased)
-        if any(c.verdict.is_yes for c in increased) and _is_complete_intersection(conditions):
+        mounted = conditions.equation.space.mountings
+        if any(c.verdict.is_yes for c in increased) and not mounted and _is_complete_intersection(conditions):
             if not parameters:
                 return "no", "singular exactly where there is IIM"
             names = ", ".join(parameters)

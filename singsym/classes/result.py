@@ -216,8 +216,9 @@ class Classification:
 
     @property
     def parameters_note(self) -> str:
-        """Which parameters have no value and count as dimensions; empty where all have."""
-        names = self.equation.space.parameters
+        """Which parameters have no value and count as dimensions, and which mountings; empty without any."""
+        space = self.equation.space
+        names = (*space.parameters, *(f"how {name} is mounted" for name in space.mountings))
         return f"dimensions count {', '.join(names)}, which may vary" if names else ""
 
     def of(self, types: SingularityType) -> ClassResult:

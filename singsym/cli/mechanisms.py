@@ -81,7 +81,7 @@ def run_list(chosen: argparse.Namespace) -> int:
 
 def run_new(chosen: argparse.Namespace) -> int:
     """`singsym new NAME`: writes NAME.toml and says so."""
-    from singsym.mechanism.starter import starter
+    from singsym.mechanism.library.starter import starter
 
     name = chosen.name.removesuffix(".toml")
     path = Path(f"{name}.toml")

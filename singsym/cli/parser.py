@@ -144,7 +144,12 @@ def _parts(command: argparse.ArgumentParser) -> None:
     """What is meant of a mechanism, where the file holds more."""
     group = command.add_argument_group("parts of the mechanism")
     group.add_argument("--base", metavar="LINK", help="where a URDF file's chain starts (default: its root)")
-    group.add_argument("--tip", metavar="LINK", help="where a URDF file's chain ends (default: its only end)")
+    group.add_argument(
+        "--tip",
+        metavar="LINK",
+        help="where a URDF file's chain ends (default: its only end); "
+        "the site or body of an MJCF file whose twist is the output",
+    )
     group.add_argument(
         "--components",
         action="append",

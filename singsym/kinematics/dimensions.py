@@ -14,6 +14,7 @@ from typing import Any
 import sympy
 
 from singsym.kinematics.numberfield import Atoms, NumberField, number_field
+from singsym.mechanism.couplings import angle_relations, slide_relations
 from singsym.mechanism.model import Mechanism, Parameter
 from singsym.mechanism.problems import MechanismError, Problem
 from singsym.polynomials import AlgebraicConstant, Polynomial, Ring
@@ -61,6 +62,9 @@ class Dimensions:
         for limit in mechanism.limits:
             expressions.extend((limit.expression, limit.low, limit.high))
         expressions.extend(e.expression for e in mechanism.exclusions)
+        expressions.extend(r.constant for r in slide_relations(mechanism))
+        for relation in angle_relations(mechanism):
+            expressions.extend((sympy.cos(relation.constant), sympy.sin(relation.constant)))
         for axis in (a for link in mechanism.links for a in link.axes.values()):
             expressions.append(norm(axis))
         return cls.of_expressions(expressions, mechanism.parameters)

@@ -21,6 +21,8 @@ class ConfigurationSpace:
     exclusions: of each tuple, not all polynomials may vanish ("leg not folded").
     positive, nonnegative: p > 0, p >= 0 (ranges of parameters, joint limits).
     parameters: the ring's names that are dimensions and not configuration variables.
+    mountings: screws and racks, which tie an angle to a length: both are coordinates as if they were free,
+        so that all ways to mount them are looked at together.
     lengths: the configuration variables that are lengths; the others are pure numbers.
     points: coordinates of the named points of space, 2 (planar) or 3.
     directions: components of the named axes, in the fixed frame.
@@ -32,10 +34,16 @@ class ConfigurationSpace:
     positive: tuple[Polynomial, ...] = ()
     nonnegative: tuple[Polynomial, ...] = ()
     parameters: tuple[str, ...] = ()
+    mountings: tuple[str, ...] = ()
     lengths: tuple[str, ...] = ()
     points: Mapping[str, Coordinates] = field(default_factory=dict)
     directions: Mapping[str, Coordinates] = field(default_factory=dict)
     formulation: str = ""
+
+    @property
+    def varying(self) -> int:
+        """How many dimensions the space has beside those of motions: of parameters and of mountings."""
+        return len(self.parameters) + len(self.mountings)
 
     @property
     def variables(self) -> tuple[str, ...]:

@@ -86,6 +86,8 @@ def scaled_matrix(equation: VelocityEquation, point: Sequence[Any] | Floats) -> 
             rows[i] = length
             if name.startswith("output"):
                 units[i] = length
+        elif name.startswith("coupling"):
+            rows[i] = max(units[j] for j in np.flatnonzero(matrix[i]))
         elif name.startswith("no idle spin"):
             rows[i] = _norm(matrix[i]) or 1.0
     return Scaled(equation, matrix * units / rows[:, None], units, length)

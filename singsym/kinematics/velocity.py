@@ -7,9 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from fractions import Fraction
 from functools import partial
 from typing import Literal
 
+from singsym.kinematics.couplings import coupling_rows
 from singsym.kinematics.formulations import place
 from singsym.kinematics.loops import loops, path, point_path
 from singsym.kinematics.placement import ConfigurationSpace, Coordinates, JointValue, Placement
@@ -92,7 +94,7 @@ def loop_closure(mechanism: Mechanism, formulation: str = "auto") -> Configurati
 
 
 def velocity_equation(mechanism: Mechanism, formulation: str = "auto") -> VelocityEquation:
-    """L with its output rows first, then the twist equations of the loops; columns T, then the joints.
+    """L with its output rows first, then the twists of the loops, then couplings; columns T, then the joints.
 
     formulation: "auto", or one of `formulations.FORMULATIONS`.
     Raises `MechanismError` for a mechanism that cannot be placed.
@@ -133,6 +135,12 @@ def velocity_equation(mechanism: Mechanism, formulation: str = "auto") -> Veloci
             row[place_of[column]] = entry
         rows.append(row)
         names.append(f"no idle spin at {name}")
+    for name, coefficients in coupling_rows(mechanism):
+        row = [ring.zero] * width
+        for column, number in coefficients.items():
+            row[place_of[column]] = ring.constant(Fraction(int(number.p), int(number.q)))
+        rows.append(row)
+        names.append(name)
     inputs = set(mechanism.inputs)
     columns = [Column(label, "output") for label in labels]
     columns += [Column(c, "input" if c in inputs else "passive") for c in joint_columns]

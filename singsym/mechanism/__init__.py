@@ -7,6 +7,7 @@ from singsym.mechanism.checks import check
 from singsym.mechanism.choices import Choice
 from singsym.mechanism.fileformat import define, load, loads
 from singsym.mechanism.model import (
+    Coupling,
     Exclusion,
     Joint,
     JointKind,
@@ -24,6 +25,7 @@ from singsym.mechanism.writer import dumps
 
 __all__ = [
     "Choice",
+    "Coupling",
     "Exclusion",
     "Joint",
     "JointKind",

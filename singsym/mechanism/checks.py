@@ -13,6 +13,7 @@ import networkx
 import sympy
 
 from singsym.mechanism.choices import balance, is_redundant
+from singsym.mechanism.couplings import check_couplings, is_sliding
 from singsym.mechanism.expressions import expression, is_angle
 from singsym.mechanism.model import (
     Joint,
@@ -56,6 +57,7 @@ def check(mechanism: Mechanism, redundant: bool = False) -> tuple[Problem, ...]:
             *_shared_points(mechanism),
             *_inputs(mechanism),
             *_outputs(mechanism, redundant),
+            *check_couplings(mechanism),
         ]
         found += [*_dimensions(mechanism.resolved), *_exclusions(mechanism), *_translating(mechanism)]
         if not found:
@@ -216,11 +218,14 @@ def _dimensions(mechanism: Mechanism) -> Iterator[Finding]:
 
 
 def _bounds(mechanism: Mechanism) -> Iterator[tuple[str, tuple[sympy.Expr | None, ...]]]:
-    """Expressions of limits and exclusions, with their places."""
+    """Expressions of limits, exclusions and couplings, with their places."""
     for limit in mechanism.limits:
         yield f"limits.{limit.expression}", (limit.expression, limit.low, limit.high)
     for exclusion in mechanism.exclusions:
         yield f"exclusions.{exclusion.words}", (exclusion.expression,)
+    for coupling in mechanism.couplings:
+        if is_sliding(mechanism, coupling):
+            yield f"couplings.{coupling.name}.constant", (coupling.constant,)
 
 
 def _quantities(value: sympy.Expr) -> set[sympy.Symbol]:

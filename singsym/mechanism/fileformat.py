@@ -14,6 +14,7 @@ from typing import Any
 
 from singsym.mechanism.checks import MAX_JOINTS, check
 from singsym.mechanism.choices import Choice
+from singsym.mechanism.couplings import read_couplings
 from singsym.mechanism.expressions import LONG_NUMBER, DecimalText, Quantities
 from singsym.mechanism.joints import read_inputs, read_joints
 from singsym.mechanism.library import names as library_names
@@ -29,7 +30,7 @@ MAX_SIZE = 1_000_000
 KEYS = (
     "name", "title", "source", "description", "space", "ground", "formulation", "mobility",
     "inputs", "output", "parameters", "links", "joints", "dh", "limits", "exclusions",
-    "translating",
+    "couplings", "translating",
 )  # fmt: skip
 FORMULATIONS = ("auto", "planar", "spherical", "joint", "natural", "quaternion")
 # Without backtracking, and from the beginnings of words alone, so that long names take no time.
@@ -41,9 +42,9 @@ _BARE = re.compile(r"[=\[,]\s*((?:[\d.]+\s*[-+*/^]|sqrt\s*\(|sin\s*\(|cos\s*\(|p
 
 
 def load(name: str | Path, choice: Choice | None = None) -> Mechanism:
-    """The checked mechanism of a file, TOML or URDF, or of a name in the library.
+    """The checked mechanism of a file, TOML, URDF or MJCF, or of a name in the library.
 
-    choice: the chain of a URDF file; joints that are held, components of the output.
+    choice: the chain of a URDF file, the tip of an MJCF file; joints that are held, components of the output.
     Raises `MechanismError` with every problem, `FileNotFoundError` where there is no such file or name.
 
     >>> hybrid = load("zlatanov-hybrid").with_parameters(a="3/2")
@@ -58,8 +59,11 @@ def load(name: str | Path, choice: Choice | None = None) -> Mechanism:
         advice = f"did you mean {' or '.join(close)}?" if close else "singsym list shows the library"
         raise FileNotFoundError(f"no file and no mechanism of the library is called {name}; {advice}")
     if is_robot_file(path):
+        from singsym.mechanism.mjcf import from_mjcf, is_mjcf
         from singsym.mechanism.urdf import from_urdf
 
+        if is_mjcf(path):
+            return from_mjcf(path, choice)
         return from_urdf(path, choice)
     return _chosen(read_text(path), str(name), choice)
 
@@ -223,6 +227,7 @@ def read(data: Mapping[str, Any], origin: str = "") -> tuple[Mechanism, tuple[Pr
         parameters=parameters,
         limits=read_limits(top.get("limits", {}), known, reader),
         exclusions=read_exclusions(top.get("exclusions", {}), known, reader),
+        couplings=read_couplings(top.get("couplings", {}), known, reader),
         mobility=mobility,
         translating=tuple(reader.names(top.get("translating", []), "translating")),
         formulation=formulation,

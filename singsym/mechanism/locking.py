@@ -23,7 +23,8 @@ def locked(mechanism: Mechanism, values: Mapping[str, Any]) -> Mechanism:
     """The mechanism with some of its input joints R and P held; values in radians, or in its lengths.
 
     A value that is no multiple of pi is a rational point of the circle within 1e-6, which `description` says.
-    Raises `MechanismError` for joints in loops, of other kinds or no inputs, and values outside the limits.
+    Raises `MechanismError` for joints in loops or couplings, of other kinds or no inputs, and values outside
+    the limits.
 
     >>> from singsym.mechanism import load
     >>> locked(load("2r"), {"B": "90 deg"}).link("AB").points
@@ -41,6 +42,9 @@ def _without(mechanism: Mechanism, name: str, value: Any) -> Mechanism:
         free = [j.name for j in mechanism.joints if j.kind in (JointKind.R, JointKind.P)]
         expected = f"an input joint R or P among {', '.join(n for n in free if n in mechanism.inputs)}"
         raise MechanismError([Problem(place, repr(name), expected, file=file)])
+    if coupled := next((c for c in mechanism.couplings if name in dict(c.terms)), None):
+        found, advice = f"a joint of the coupling {coupled.name}", "in the file, write its two links as one"
+        raise MechanismError([Problem(place, found, "a joint that none other follows", advice, file)])
     rest = mechanism.graph.copy()
     rest.remove_edge(joint.first, joint.second, key=name)
     beyond = networkx.node_connected_component(rest, joint.second)

@@ -1,4 +1,4 @@
-"""A mechanism as data: links, joints, inputs, outputs, parameters and exclusions.
+"""A mechanism as data: links, joints, inputs, outputs, parameters, exclusions and couplings.
 
 Source: Zlatanov, Fenton, Benhabib (1998), section 2; the data model is singsym's own.
 """
@@ -175,6 +175,20 @@ class Exclusion:
 
 
 @dataclass(frozen=True)
+class Coupling:
+    """Gears, a belt, a differential, a rack: a sum of multiples of joint rates that is zero.
+
+    terms: column label and rational coefficient; of turns beside slides that of a turn is a length.
+    constant: the same sum of the joints' values, an angle in radians, modulo full turns of each, or a length;
+        None for turns beside slides, which may be mounted in any way.
+    """
+
+    name: str
+    terms: tuple[tuple[str, sympy.Expr], ...]
+    constant: sympy.Expr | None = sympy.S.Zero
+
+
+@dataclass(frozen=True)
 class Mechanism:
     """A mechanism, its dimensions, inputs and outputs; nothing is computed on construction.
 
@@ -196,6 +210,7 @@ class Mechanism:
     parameters: tuple[Parameter, ...] = ()
     limits: tuple[Limit, ...] = ()
     exclusions: tuple[Exclusion, ...] = ()
+    couplings: tuple[Coupling, ...] = ()
     mobility: int | None = None
     translating: tuple[str, ...] = ()
     formulation: str = "auto"
@@ -323,4 +338,12 @@ class Mechanism:
             ),
             limits=tuple(Limit(t.expression.xreplace(values), put(t.low), put(t.high)) for t in self.limits),
             exclusions=tuple(replace(e, expression=put(e.expression)) for e in self.exclusions),
+            couplings=tuple(
+                Coupling(
+                    c.name,
+                    tuple((column, put(x, f"couplings.{c.name}")) for column, x in c.terms),
+                    put(c.constant, f"couplings.{c.name}"),
+                )
+                for c in self.couplings
+            ),
         )

@@ -13,7 +13,8 @@ from statistics import median_low
 
 import sympy
 
-from singsym.mechanism.model import Exclusion, Joint, Limit, Link, Mechanism, Vector
+from singsym.mechanism.couplings import is_sliding, turning_terms
+from singsym.mechanism.model import Coupling, Exclusion, Joint, Limit, Link, Mechanism, Vector
 
 USUAL = 10
 """In its own unit half of a mechanism's lengths at least are below this."""
@@ -67,15 +68,22 @@ def scaled(mechanism: Mechanism, factor: Fraction) -> Mechanism:
         joints=tuple(_scaled_joint(joint, factor) for joint in mechanism.joints),
         limits=tuple(_scaled_limit(limit, factor) for limit in mechanism.limits),
         exclusions=tuple(_scaled_exclusion(exclusion, factor) for exclusion in mechanism.exclusions),
+        couplings=tuple(_scaled_coupling(c, mechanism, factor) for c in mechanism.couplings),
     )
 
 
 def _lengths(mechanism: Mechanism) -> Iterator[sympy.Expr]:
-    """The lengths in a mechanism: coordinates of points, pitches, bounds of lengths."""
+    """The lengths in a mechanism: coordinates of points, pitches, sums and bounds of lengths, radii."""
     for link in mechanism.links:
         for point in link.points.values():
             yield from point
     yield from (joint.pitch for joint in mechanism.joints if joint.pitch is not None)
+    for coupling in mechanism.couplings:
+        if coupling.constant is None:
+            turns = turning_terms(mechanism, coupling)
+            yield from (number for column, number in coupling.terms if column in turns)
+        elif is_sliding(mechanism, coupling):
+            yield coupling.constant
     for limit in mechanism.limits:
         if _degree(limit.expression) == 1:
             yield from (bound for bound in (limit.low, limit.high) if bound is not None)
@@ -109,6 +117,17 @@ def _scaled_exclusion(exclusion: Exclusion, factor: sympy.Rational) -> Exclusion
     if exclusion.expression is None:
         return exclusion
     return replace(exclusion, expression=_scaled_expression(exclusion.expression, factor))
+
+
+def _scaled_coupling(coupling: Coupling, mechanism: Mechanism, factor: sympy.Rational) -> Coupling:
+    if coupling.constant is None:
+        turns = turning_terms(mechanism, coupling)
+        return replace(coupling, terms=tuple((c, factor * x if c in turns else x) for c, x in coupling.terms))
+    return (
+        replace(coupling, constant=factor * coupling.constant)
+        if is_sliding(mechanism, coupling)
+        else coupling
+    )
 
 
 def _scaled_expression(expression: sympy.Expr, factor: sympy.Rational) -> sympy.Expr:

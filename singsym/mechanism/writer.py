@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 import sympy
 
-from singsym.mechanism.model import JointRate, Mechanism, Output, Parameter, PointVelocity, Vector
+from singsym.mechanism.model import Coupling, JointRate, Mechanism, Output, Parameter, PointVelocity, Vector
 
 
 def dumps(mechanism: Mechanism) -> str:
@@ -61,7 +61,15 @@ def dumps(mechanism: Mechanism) -> str:
                 else f"coincide = {_names(e.points)}"
             )
             lines.append(f"{_quote(e.words)} = {{ {said} }}")
+    if mechanism.couplings:
+        lines += ["", "[couplings]", *map(_coupling, mechanism.couplings)]
     return "\n".join(lines) + "\n"
+
+
+def _coupling(coupling: Coupling) -> str:
+    rates = ", ".join(f"{_quote(column)} = {_number(x)}" for column, x in coupling.terms)
+    constant = "" if coupling.constant is None else f", constant = {_number(coupling.constant)}"
+    return f"{coupling.name} = {{ rates = {{ {rates} }}{constant} }}"
 
 
 def _joints(mechanism: Mechanism) -> list[str]:

@@ -95,12 +95,13 @@ def mechanism_latex(mechanism: Mechanism, equation: VelocityEquation) -> str:
 
 
 def _description(mechanism: Mechanism) -> str:
-    from singsym.output.text import output_text
+    from singsym.output.text import coupling_text, output_text
 
     parts = [f"{mechanism.description.strip()}" if mechanism.description else ""]
     inputs = ", ".join(mechanism.inputs)
     outputs = "; ".join(output_text(o) for o in mechanism.outputs)
     parts.append(f"Inputs: {inputs}. Output: {outputs}.")
+    parts += [f"Coupled: {coupling_text(c)}." for c in mechanism.couplings]
     if mechanism.source:
         parts.append(f"Source: {mechanism.source}.")
     return "\n\n".join(escaped(part) for part in parts if part)

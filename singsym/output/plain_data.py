@@ -36,6 +36,14 @@ def mechanism_data(mechanism: Mechanism, equation: VelocityEquation) -> dict[str
             {"name": j.name, "kind": j.kind.value, "links": [j.first, j.second], "columns": list(j.columns)}
             for j in mechanism.joints
         ],
+        "couplings": [
+            {
+                "name": c.name,
+                "rates": {column: str(x) for column, x in c.terms},
+                "constant": None if c.constant is None else str(c.constant),
+            }
+            for c in mechanism.couplings
+        ],
         **equation_data(equation),
     }
 
@@ -49,6 +57,7 @@ def equation_data(equation: VelocityEquation) -> dict[str, Any]:
         "formulation": space.formulation,
         "variables": list(space.variables),
         "parameters": list(space.parameters),
+        "mountings": list(space.mountings),
         "constants": {c.name: c.text for c in space.ring.constants},
         "equations": [str(e) for e in space.equations],
         "exclusions": [[str(e) for e in group] for group in space.exclusions],
@@ -132,6 +141,7 @@ def classification_data(found: Classification) -> dict[str, Any]:
         "N": found.equation.N,
         "n": found.equation.n,
         "parameters": list(found.equation.space.parameters),
+        "mountings": list(found.equation.space.mountings),
         "configuration_space": [
             {
                 **extent_data(piece.extent),

@@ -83,12 +83,12 @@ def _near_regular(classification: Classification, pieces: Sequence[Piece], budge
     """Whether pieces of a class are proven to lie in the closure of the regular configurations.
 
     Lemma.  Where rank L = N the configuration space is a manifold of dimension n, and of n and the number of
-    parameters with these as variables.  If all singular configurations together have a smaller dimension,
-    they have no inner points, so that there are regular configurations near each of rank L = N: feasible ones
-    where that is not at the end of a range.
+    parameters and mountings with these as variables.  If all singular configurations together have a smaller
+    dimension, they have no inner points, so that there are regular configurations near each of rank L = N:
+    feasible ones where that is not at the end of a range.
     """
     mechanism, space = classification.mechanism, classification.equation.space
-    usual = classification.equation.n + len(space.parameters)
+    usual = classification.equation.n + space.varying
     bounds = [c.extent.at_most for c in classification.classes]
     if mechanism is None or mechanism.translating or any(m is None or m >= usual for m in bounds):
         return False

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from singsym.elimination.engines.registry import EngineStatus
     from singsym.kinematics.mobility import Mobility
     from singsym.kinematics.velocity import VelocityEquation
-    from singsym.mechanism.model import Joint, Mechanism, Output, Parameter
+    from singsym.mechanism.model import Coupling, Joint, Mechanism, Output, Parameter
     from singsym.polynomials import PolynomialMatrix
 
 LONGEST = 12
@@ -58,6 +58,7 @@ def mechanism_page(mechanism: Mechanism, equation: VelocityEquation) -> Page:
         *(["Redundant: RI in every configuration"] if is_redundant(mechanism) else []),
         *(f"Parameter: {_parameter_text(p)}" for p in mechanism.parameters),
         *(f"Left out: {e.words or ' = '.join(e.points) or e.expression}" for e in mechanism.exclusions),
+        *(f"Coupled: {coupling_text(c)}" for c in mechanism.couplings),
     ]
     joints = tuple(_joint_row(j, mechanism) for j in mechanism.joints)
     variables = f"Configuration variables ({space.formulation}): {', '.join(space.variables)}"
@@ -88,6 +89,21 @@ def output_text(output: Output) -> str:
     if isinstance(output, PointVelocity):
         return f"the velocity of {output.point} ({components})"
     return f"the twist of {output.link} at {output.point} ({components})"
+
+
+def coupling_text(coupling: Coupling) -> str:
+    """The relation between the joints' values: whatever the constant, that of their rates has zero for it.
+
+    >>> from sympy import Rational, pi
+    >>> from singsym.mechanism import Coupling
+    >>> coupling_text(Coupling("gears", (("A", Rational(3, 2)), ("B.angle", Rational(1))), pi / 6))
+    'gears, 3*A/2 + B.angle = pi/6'
+    """
+    from sympy import Add, Symbol
+
+    total = Add(*(number * Symbol(column) for column, number in coupling.terms))
+    constant = "constant" if coupling.constant is None else f"= {coupling.constant}"
+    return f"{coupling.name}, {total} {constant}"
 
 
 def _parameter_text(parameter: Parameter) -> str:

@@ -12,7 +12,7 @@ from fractions import Fraction
 
 import sympy
 
-from singsym.mechanism import JointRate, Limit, Link, Mechanism, Space
+from singsym.mechanism import Coupling, JointKind, JointRate, Limit, Link, Mechanism, Space
 from singsym.mechanism.model import Vector
 
 Disguise = Callable[[Mechanism], Mechanism]
@@ -77,9 +77,19 @@ def scaled(factor: Fraction) -> Disguise:
                 e if e.expression is None else replace(e, expression=unscaled(e.expression))
                 for e in m.exclusions
             ),
+            couplings=tuple(_coupling(c, m, k, 1) for c in m.couplings),
         )
 
     return put
+
+
+def _coupling(coupling: Coupling, mechanism: Mechanism, length: sympy.Rational, turn: int) -> Coupling:
+    """With lengths times a factor, and angles times 1 or -1; of a rack the radius is both."""
+    slides = [mechanism.joint(column.split(".")[0]).kind is JointKind.P for column, _ in coupling.terms]
+    if coupling.constant is not None:
+        return replace(coupling, constant=(length if all(slides) else turn) * coupling.constant)
+    pairs = zip(coupling.terms, slides, strict=True)
+    return replace(coupling, terms=tuple((c, x if slide else length * turn * x) for (c, x), slide in pairs))
 
 
 def _is_length(symbol: sympy.Symbol, points: set[str]) -> bool:
@@ -99,7 +109,8 @@ def mirrored(mechanism: Mechanism) -> Mechanism:
         return -symbol if odd else symbol
 
     joints = tuple(replace(j, pitch=None if j.pitch is None else -j.pitch) for j in mechanism.joints)
-    return _moved(replace(mechanism, joints=joints), turn, image)
+    couplings = tuple(_coupling(c, mechanism, sympy.Integer(1), -1) for c in mechanism.couplings)
+    return _moved(replace(mechanism, joints=joints, couplings=couplings), turn, image)
 
 
 def turned(mechanism: Mechanism) -> Mechanism | None:

@@ -20,7 +20,7 @@ from singsym.mechanism import (
 )
 from singsym.mechanism.expressions import parse
 from singsym.mechanism.library import names
-from singsym.mechanism.starter import starter
+from singsym.mechanism.library.starter import starter
 from singsym.mechanism.writer import spell
 
 CASES = Path(__file__).parent.parent / "cases"

@@ -54,8 +54,8 @@ def local_coordinates(
         found = _values(equation, _to_the_output(mechanism))
         if len(found) != equation.n:
             found = _pose(mechanism, equation)
-    # in a mode of translation a pose has fewer freedoms
-    if len(found) != equation.n or mechanism.translating:
+    # in a mode of translation a pose has fewer freedoms, and of mountings nothing is known
+    if len(found) != equation.n or mechanism.translating or equation.space.mountings:
         return ()
     return (*found, *(JointValue(length=ring.gen(name)) for name in equation.space.parameters))
 

@@ -6,6 +6,7 @@ Source: Zlatanov, Fenton, Benhabib (1998), section 2.4; each module names the so
 from __future__ import annotations
 
 from singsym.kinematics.constraints import constrained
+from singsym.kinematics.couplings import coupled
 from singsym.kinematics.formulations import joint, natural, planar, spherical
 from singsym.kinematics.placement import Placement
 from singsym.mechanism.model import Mechanism, Space
@@ -47,4 +48,4 @@ def place(mechanism: Mechanism, formulation: str = "auto") -> Placement:
         placed = joint.place(mechanism)
     else:
         placed = natural.place(mechanism, quaternion=chosen == "quaternion")
-    return constrained(mechanism, placed)
+    return constrained(mechanism, coupled(mechanism, placed))

@@ -130,7 +130,11 @@ def _pins(mechanism: Mechanism) -> dict[tuple[str, str], Pin]:
 
 
 def _struts(mechanism: Mechanism, pin_of: Mapping[tuple[str, str], Pin]) -> list[Joint]:
-    """Slides of two rods with one pin each, on the line through the pins, which may not coincide."""
+    """Slides of two rods with one pin each, on the line through the pins, which may not coincide.
+
+    None with a coupling, which needs the length, or the direction at a pin.
+    """
+    coupled = {column for coupling in mechanism.couplings for column, _ in coupling.terms}
     apart = [set(e.points) for e in mechanism.exclusions if e.kind == "coincide"]
     found = []
     for joint in mechanism.joints:
@@ -140,13 +144,15 @@ def _struts(mechanism: Mechanism, pin_of: Mapping[tuple[str, str], Pin]) -> list
         if not all(end in pin_of for end in ends):
             continue
         lone = all(mechanism.graph.degree(link) == 2 for link, _ in ends)
+        rods = {joint.first, joint.second}
+        free = not any(j.name in coupled and rods & {j.first, j.second} for j in mechanism.joints)
         positive = any(
             limit.low is not None
             and limit.low.is_positive
             and str(limit.expression) == f"length({joint.name})"
             for limit in mechanism.limits
         )
-        if lone and (positive or {pin_of[end].name for end in ends} in apart):
+        if lone and free and (positive or {pin_of[end].name for end in ends} in apart):
             found.append(joint)
     return found
 

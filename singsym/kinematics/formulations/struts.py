@@ -68,7 +68,8 @@ def hangers(mechanism: Mechanism, geometry: local.Geometry, link: str) -> list[H
 
 
 def find_struts(mechanism: Mechanism, geometry: local.Geometry) -> list[Strut]:
-    """All rods and straight struts of a mechanism."""
+    """All rods, and straight struts but those with a slide in a coupling, which needs its length."""
+    coupled = {column for coupling in mechanism.couplings for column, _ in coupling.terms}
     struts = []
     for link in mechanism.links:
         joints = [joint for joint in mechanism.joints if link.name in (joint.first, joint.second)]
@@ -78,7 +79,7 @@ def find_struts(mechanism: Mechanism, geometry: local.Geometry) -> list[Strut]:
         if len(ends) == 2 and not local.vanishes(local.minus(ends[0].inner, ends[1].inner)):
             struts.append(Strut((link.name,), (ends[0], ends[1]), None, ()))
         slide = next((joint for joint in joints if joint.kind is JointKind.P), None)
-        if len(ends) == 1 and slide is not None and slide.first == link.name:
+        if len(ends) == 1 and slide is not None and slide.first == link.name and slide.name not in coupled:
             other = hangers(mechanism, geometry, slide.second)
             if len(other) == 1 and _is_straight(mechanism, geometry, slide, (ends[0], other[0])):
                 both = (ends[0], other[0])

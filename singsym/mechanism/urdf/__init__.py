@@ -16,6 +16,7 @@ from singsym.mechanism.problems import MechanismError
 from singsym.mechanism.urdf.arm import arm
 from singsym.mechanism.urdf.chains import Tree
 from singsym.mechanism.urdf.held import held_joints
+from singsym.mechanism.urdf.led import led_joints
 from singsym.mechanism.urdf.robot_file import read_robot
 from singsym.mechanism.urdf.tool import tool_output
 
@@ -29,6 +30,7 @@ def from_urdf(path: str | Path, choice: Choice | None = None) -> Mechanism:
     choice: its components are of the twist of the tip (wx, wy, wz, vx, vy, vz) or of its velocity (x, y, z);
         by default all for six joints, the velocity for three, else those that can move at all, if these are
         as many as the joints that move.
+    Joints that follow others of the chain are coupled to these, and no inputs.
     Lengths are in the file's metres and are the rationals that its decimals spell, without noise below 1e-9;
     angles that spell multiples of pi are these, others are rational rotations within 1e-6.
     Raises `MechanismError` for what the file lacks or has too much of, `OSError` where it cannot be read.
@@ -37,9 +39,10 @@ def from_urdf(path: str | Path, choice: Choice | None = None) -> Mechanism:
     robot = read_robot(path)
     chain = Tree(robot).chain(choice.base, choice.tip)
     held = held_joints(robot, chain, choice)
-    mechanism, names = arm(robot, chain, held)
+    led = led_joints(robot, chain, held)
+    mechanism, names = arm(robot, chain, held, led)
     mechanism = locked(mechanism, {names[name]: value for name, value in held.items()})
-    output, note = tool_output(robot, chain, held, mechanism, choice)
+    output, note = tool_output(robot, chain, held, led, mechanism, choice)
     words = "\n".join(part for part in (mechanism.description, note) if part)
     mechanism = replace(mechanism, outputs=(output,), description=words)
     if choice.components:

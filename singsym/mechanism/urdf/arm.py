@@ -5,8 +5,6 @@ Source: the URDF specification (https://wiki.ros.org/urdf/XML): a joint's frame 
 
 from __future__ import annotations
 
-import math
-import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -14,12 +12,11 @@ from typing import Any
 
 import sympy
 
-from singsym.mechanism.arcs import decimal_arc
-from singsym.mechanism.expressions import RESERVED
-from singsym.mechanism.model import Joint, JointKind, Limit, Link, Mechanism, Space, Vector
-from singsym.mechanism.reader import LONGEST_NAME
+from singsym.mechanism.expressions import expression
+from singsym.mechanism.model import Coupling, Joint, JointKind, Limit, Link, Mechanism, Space, Vector
 from singsym.mechanism.urdf.chains import Chain
-from singsym.mechanism.urdf.numbers import Reading, across
+from singsym.mechanism.urdf.led import Led, with_limits
+from singsym.mechanism.urdf.numbers import Names, Reading, across
 from singsym.mechanism.urdf.robot_file import Robot, RobotJoint
 
 TOOL = "tool"
@@ -35,29 +32,33 @@ class _Body:
     axes: dict[str, Vector] = field(default_factory=dict)
 
 
-def arm(robot: Robot, chain: Chain, held: Collection[str]) -> tuple[Mechanism, Mapping[str, str]]:
+def arm(
+    robot: Robot, chain: Chain, held: Collection[str], led: Mapping[str, Led]
+) -> tuple[Mechanism, Mapping[str, str]]:
     """The mechanism of a chain, without outputs, and its joints' names by those of the file.
 
-    held: the joints that will be locked, which are moving ones here.
+    held: the joints that will be locked, which are moving ones here; led: those that follow others.
     Raises `MechanismError` for what the chain has that no serial mechanism has.
     """
     built = _Arm(robot)
+    chain, followed = with_limits(robot, chain, led)
     built.bodies.append(_Body(built.name(chain.base)))
     for joint in chain.joints:
-        built.add(joint, held)
+        built.add(joint, {*held, *led})
     last = built.bodies[-1]
     last.points[TOOL] = _tuple(built.shift)
-    limits = (f"Limits of {', '.join(names)}: {words}." for words, names in built.said.items())
-    notes = (str(chain), *built.reading.notes, *limits, *built.notes)
+    couplings = tuple(built.coupling(name, one) for name, one in led.items())
+    notes = (str(chain), *built.reading.notes, *built.notes, *followed)
     mechanism = Mechanism(
         name=robot.name,
         space=Space.SPATIAL,
         ground=built.bodies[0].name,
         links=tuple(Link(b.name, b.points, b.axes) for b in built.bodies),
         joints=tuple(built.joints),
-        inputs=tuple(joint.name for joint in built.joints),
+        inputs=tuple(new for old, new in built.names.items() if old not in led),
         outputs=(),
         limits=tuple(built.limits),
+        couplings=couplings,
         description="\n".join(notes),
         source=f"URDF file {Path(robot.file).name}",
         origin=robot.file,
@@ -70,33 +71,30 @@ class _Arm:
 
     def __init__(self, robot: Robot) -> None:
         self.robot = robot
-        self.reading = Reading()
+        self.reading, self.name = Reading(), Names()
         self.notes: list[str] = []
-        self.said: dict[str, list[str]] = {}
         self.bodies: list[_Body] = []
         self.joints: list[Joint] = []
         self.limits: list[Limit] = []
         self.names: dict[str, str] = {}
         self.turn, self.shift = sympy.eye(3), sympy.zeros(3, 1)
-        self.used: set[str] = set()
 
-    def name(self, text: str) -> str:
-        """A name in the file format's alphabet, not yet used."""
-        clean = re.sub(r"[^A-Za-z0-9_]", "_", text)[: LONGEST_NAME - 10] or "_"
-        clean = f"_{clean}" if not (clean[0].isalpha() or clean[0] == "_") or clean in RESERVED else clean
-        while clean in self.used:
-            clean += "_"
-        self.used.add(clean)
-        return clean
+    def coupling(self, name: str, led: Led) -> Coupling:
+        """Of a joint to its leader, both there."""
+        new, leader = self.names[name], self.names[led.leader]
+        turning = next(joint for joint in self.joints if joint.name == new).kind is JointKind.R
+        offset = float(led.offset)
+        constant = self.reading.multiple(offset) if turning else self.reading.length(offset)
+        return Coupling(new, ((new, sympy.Integer(1)), (leader, -expression(led.multiplier))), constant)
 
-    def add(self, joint: RobotJoint, held: Collection[str]) -> None:
+    def add(self, joint: RobotJoint, known: Collection[str]) -> None:
         """Append one URDF joint: a fixed one moves the pose on, another starts a new body."""
         here = sympy.Matrix([self.reading.length(x) for x in joint.xyz])
         self.shift = (self.shift + self.turn * here).applyfunc(sympy.expand)
         self.turn = (self.turn * self.reading.rotation(joint.rpy, joint.name)).applyfunc(sympy.expand)
         if joint.kind == "fixed":
             return
-        if joint.mimic is not None and joint.name not in held:
+        if joint.mimic is not None and joint.name not in known:
             leader = joint.mimic.joint
             self.notes.append(f"Joint {joint.name} follows {leader}, which is not in the chain: an input.")
         name, old = self.name(joint.name), self.bodies[-1]
@@ -120,30 +118,10 @@ class _Arm:
         self.bodies.append(new)
         self.turn, self.shift = frame, sympy.zeros(3, 1)
         if joint.lower is not None and joint.upper is not None:
-            self.limit(name, turning, joint.lower, joint.upper)
-
-    def limit(self, name: str, turning: bool, low: float, high: float) -> None:
-        """A length's range as spelled; an angle's in cosine and sine, with ends rounded outwards."""
-        if low == high:
-            self.said.setdefault(f"left out, as both are {low:g}", []).append(name)
-            return
-        if not low < high:
-            raise self.robot.fault(
-                f"joint {name}", f"the limits {low:g} and {high:g}", "the lower limit first"
-            )
-        if not turning:
-            ends = (self.reading.length(end) if math.isfinite(end) else None for end in (low, high))
-            bounds = Limit(sympy.Symbol(f"length({name})"), *ends)
-            if bounds.low is not None or bounds.high is not None:
-                self.limits.append(bounds)
-        elif math.isfinite(low) and math.isfinite(high):
-            arc, words = decimal_arc(name, low, high)
-            if arc is not None:
-                self.limits.append(arc)
-            for part in words.split(", ") if words else ():
-                what = "rounded outwards by at most 1e-6" if " is rounded" in part else part
-                if name not in (names := self.said.setdefault(what, [])):
-                    names.append(name)
+            if joint.lower > joint.upper:
+                found = f"the limits {joint.lower:g} and {joint.upper:g}"
+                raise self.robot.fault(f"joint {joint.name}", found, "the lower limit first")
+            self.limits += self.reading.limits(name, turning, joint.lower, joint.upper)
 
 
 def _tuple(vector: Sequence[Any]) -> Vector:

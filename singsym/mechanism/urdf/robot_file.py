@@ -28,11 +28,7 @@ _OTHERS = {
         "SDF, the format of Gazebo",
         f"for a serial arm run rod, a Python package: rod --file {{name}} -o robot.urdf; for loops {_START}",
     ),
-    "mujoco": (
-        "MJCF, the format of MuJoCo",
-        "for a serial arm call convert('{name}', 'robot.urdf') of mjcf_urdf_simple_converter, a Python "
-        f"package; for loops {_START}",
-    ),
+    "mujoco": ("MJCF, the format of MuJoCo", "singsym.mechanism.load('{name}') reads it"),
     "world": ("a world of several models", "give the URDF file of one robot"),
     "COLLADA": ("a COLLADA scene", "give the URDF file that names it"),
 }

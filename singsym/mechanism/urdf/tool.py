@@ -18,6 +18,7 @@ from singsym.mechanism.model import Mechanism, Output, PointVelocity, Space, Twi
 from singsym.mechanism.outputs import TWISTS, coordinates
 from singsym.mechanism.urdf.arm import TOOL
 from singsym.mechanism.urdf.chains import Chain
+from singsym.mechanism.urdf.led import Led
 from singsym.mechanism.urdf.robot_file import Robot
 
 _ORDER = ("vx", "vy", "vz", "wz", "wx", "wy")
@@ -27,7 +28,12 @@ _SEEDS = (1, 2, 3)
 
 
 def tool_output(
-    robot: Robot, chain: Chain, held: Mapping[str, Any], mechanism: Mechanism, choice: Choice
+    robot: Robot,
+    chain: Chain,
+    held: Mapping[str, Any],
+    led: Mapping[str, Led],
+    mechanism: Mechanism,
+    choice: Choice,
 ) -> tuple[Output, str]:
     """The output and what is to be said of it.
 
@@ -39,12 +45,12 @@ def tool_output(
     if choice.components:
         return Twist(link, TOOL, twist), ""
     n = len(mechanism.inputs)
-    columns = [_columns(chain, held, seed) for seed in _SEEDS]
+    columns = [_columns(chain, held, led, seed) for seed in _SEEDS]
     rank = max(_rank(rates) for rates in columns)
-    if rank < n and choice.redundant:
+    if rank < n and choice.redundant and not led:
         n = rank
     if rank < n:
-        raise _redundant(robot, chain, held, rank, columns)
+        raise _redundant(robot, chain, held, led, rank, columns)
     if n == len(twist):
         return Twist(link, TOOL, twist), ""
     velocity = [twist.index(name) for name in ("vx", "vy", "vz")]
@@ -65,15 +71,18 @@ def _carrier(mechanism: Mechanism) -> str:
     return next(link.name for link in reversed(mechanism.links) if TOOL in link.points)
 
 
-def _columns(chain: Chain, held: Mapping[str, Any], seed: int) -> Any:
-    """The tip's twist, one column for each joint that moves, velocities in the arm's own length."""
+def _columns(chain: Chain, held: Mapping[str, Any], led: Mapping[str, Led], seed: int) -> Any:
+    """The tip's twist, a column for each joint that moves on its own, velocities in the arm's own length."""
     values = {name: float(sympy.N(expression(value))) for name, value in held.items()}
-    rates = np.array(columns_of(chain, values, seed)).T
+    rates = np.array(columns_of(chain, values, seed, led)).T
     reach = max(float(np.abs(rates[3:]).max()), 1e-3)
     rates[3:] /= reach
-    slides = [joint.kind == "prismatic" for joint in chain.moving if joint.name not in values]
-    rates[:, slides] *= reach
-    return rates
+    free = [joint for joint in chain.moving if joint.name not in values]
+    rates[:, [joint.kind == "prismatic" for joint in free]] *= reach
+    names = [joint.name for joint in free]
+    for name, one in led.items():
+        rates[:, names.index(one.leader)] += float(one.multiplier) * rates[:, names.index(name)]
+    return rates[:, [name not in led for name in names]]
 
 
 def _rank(rates: Any) -> int:
@@ -92,10 +101,15 @@ def _independent(columns: Sequence[Any], count: int) -> list[str]:
 
 
 def _redundant(
-    robot: Robot, chain: Chain, held: Mapping[str, Any], rank: int, columns: Sequence[Any]
+    robot: Robot,
+    chain: Chain,
+    held: Mapping[str, Any],
+    led: Mapping[str, Led],
+    rank: int,
+    columns: Sequence[Any],
 ) -> Exception:
     """More joints than independent velocities: which to hold, and what then is the output."""
-    free = [joint for joint in chain.moving if joint.name not in held]
+    free = [joint for joint in chain.moving if joint.name not in held and joint.name not in led]
     kept = _kept(columns, len(free), rank)
     offered = " ".join(
         f"--lock {joint.name}={joint.resting}" for place, joint in enumerate(free) if place not in kept
@@ -108,7 +122,9 @@ def _redundant(
     expected = "as many joints as velocities, for the 21 classes"
     before = " ".join(f"--lock {name}={value}" for name, value in held.items())
     holds = f"{before} {offered}" if before else offered
-    advice = f"hold the others, as {holds}; `singsym conditions` says where IO holds without that"
+    advice = f"hold the others, as {holds}"
+    if not led:
+        advice += "; `singsym conditions` says where IO holds without that"
     return robot.fault("joints", found, expected, advice)
 
 
@@ -127,21 +143,28 @@ def _kept(columns: Sequence[Any], count: int, rank: int) -> list[int]:
     return kept
 
 
-def columns_of(chain: Chain, values: Mapping[str, float], seed: int) -> list[list[float]]:
+def columns_of(
+    chain: Chain, values: Mapping[str, float], seed: int, led: Mapping[str, Led] | None = None
+) -> list[list[float]]:
     """The columns (wx, wy, wz, vx, vy, vz) of the tip's twist for each moving joint, in floats.
 
-    values: of the joints that are held, by name, which have no column; the others are where `seed` says.
+    values: of the joints that are held, by name, which have no column; the others are where `seed` says, but
+        for those that are `led`.
     """
+    drawn = {j.name: 0.3 + 2.7 * math.fmod(n * seed * 0.618, 1) for n, j in enumerate(chain.joints, 1)}
+    places = {**drawn, **values}
+    for name, one in (led or {}).items():
+        places[name] = float(one.multiplier) * places[one.leader] + float(one.offset)
     frame, place = np.eye(3), np.zeros(3)
     found = []
-    for number, joint in enumerate(chain.joints, 1):
+    for joint in chain.joints:
         place = place + frame @ np.array(joint.xyz)
         for axis, angle in zip(np.eye(3)[::-1], reversed(joint.rpy), strict=True):
             frame = frame @ _turn(axis, angle)
         if joint.kind == "fixed":
             continue
         axis = frame @ (np.array(joint.axis) / math.hypot(*joint.axis))
-        value = values.get(joint.name, 0.3 + 2.7 * math.fmod(number * seed * 0.618, 1))
+        value = places[joint.name]
         if joint.name not in values:
             found.append((joint.kind == "prismatic", axis, place))
         if joint.kind == "prismatic":

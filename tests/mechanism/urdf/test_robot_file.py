@@ -36,7 +36,7 @@ def said(path: Path, text: str) -> str:
         ("<sdf><world/></sdf>", "a world in SDF"),
         (
             "<mujoco/>",
-            "MJCF, the format of MuJoCo; expected URDF: <robot> with links and joints; for a serial arm",
+            "MJCF, the format of MuJoCo; expected URDF: <robot> with links and joints; singsym.mech",
         ),
         ("<html/>", "XML that starts with <html>"),
         ("<robot><xacro:include filename='x'/></robot>", "run xacro first"),

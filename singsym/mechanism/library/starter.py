@@ -57,6 +57,11 @@ D = "R"
 # [exclusions]                        # configurations to leave out
 # "leg folded" = { coincide = ["A", "C"] }
 
+# [couplings]                         # gears, belts, differentials: sums of multiples of rates that are 0
+# gears = { rates = { A = 3, D = 2 } }                          # D turns against A, 3/2 as fast
+# belt = { rates = { A = 1, D = "-1/2" }, constant = "30 deg" } # for the joints' values A - D/2 = 30 deg
+# rack = { rates = { P = 1, A = "1/2" } }                       # a pinion of radius 1/2, mounted anyhow
+
 # A serial arm needs no links and joints:
 # [dh]
 # convention = "standard"             # or modified
