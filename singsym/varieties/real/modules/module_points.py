@@ -76,7 +76,7 @@ def has_no_assembly(equations: Equations) -> Verdict:
             found = module_points(equations)
             if not found.value:
                 return Verdict.yes(found.certainty, reason="modules of the equations have no common assembly")
-    left, _ = _without_given(equations)
+    left, _ = without_given(equations)
     over = next(towers(left), None) if left else None
     if over is not None:
         with attempt("modules over a circle without an assembly", patience.ASSEMBLIES.work):
@@ -100,7 +100,7 @@ def comes_apart(equations: Equations) -> bool:
 
 def _points(equations: Equations) -> Known[tuple[BoxPoint, ...]]:
     """Those of the equations in the variables that no equation of first degree gives, with all values."""
-    left, given = _without_given(equations)
+    left, given = without_given(equations)
     if any(p.is_constant for p in left):
         return Known(())
     if not given or not left:
@@ -110,12 +110,12 @@ def _points(equations: Equations) -> Known[tuple[BoxPoint, ...]]:
 
     def whole(point: BoxPoint) -> BoxPoint:
         zeros = tuple(map(ring.convert, point.zeros))
-        return replace(_with_values(point, given, ring), zeros=(*zeros, *equations))
+        return replace(with_values(point, given, ring), zeros=(*zeros, *equations))
 
     return found.map(lambda points: tuple(map(whole, points)))
 
 
-def _without_given(equations: Equations) -> tuple[Equations, list[Substitution]]:
+def without_given(equations: Equations) -> tuple[Equations, list[Substitution]]:
     """Equations in the variables that no equation of first degree gives, and what these give."""
     left, given = equations, list[Substitution]()
     while (step := next(filter(None, map(_given_by, left)), None)) is not None:
@@ -133,7 +133,7 @@ def _given_by(equation: Polynomial) -> Substitution | None:
     return solved_variable(equation)
 
 
-def _with_values(point: BoxPoint, given: Sequence[Substitution], ring: Ring) -> BoxPoint:
+def with_values(point: BoxPoint, given: Sequence[Substitution], ring: Ring) -> BoxPoint:
     """The point in a larger ring, with the values of the variables that were given, the last one first."""
     with at_precision(PRECISIONS[0]):
         known = _balls(point, PRECISIONS[0])
