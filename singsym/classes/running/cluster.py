@@ -7,6 +7,7 @@ Source: the documentation of dask.distributed, https://distributed.dask.org, `Cl
 from __future__ import annotations
 
 import asyncio
+import logging
 import pickle
 import socket
 from collections.abc import Callable, Iterator
@@ -56,9 +57,23 @@ def cluster(address: str) -> Iterator[Executor]:
     except Exception as error:
         why = "it says nothing" if isinstance(error, TimeoutError) else error
         raise ClusterError(f"what listens at {address} is not a Dask scheduler: {why}") from None
-    with distributed.Client(address, timeout=_ANSWER_SECONDS, set_as_default=False) as client:
+    with _quiet(), distributed.Client(address, timeout=_ANSWER_SECONDS, set_as_default=False) as client:
         _check_workers(client, address)
         yield _Cluster(client, address)
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Dask does not write tracebacks to stderr inside: what is lost is said by results and exceptions."""
+    handlers = logging.getLogger("distributed").handlers
+    levels = [(handler, handler.level) for handler in handlers]
+    for handler in handlers:
+        handler.setLevel(logging.CRITICAL + 1)
+    try:
+        yield
+    finally:
+        for handler, level in levels:
+            handler.setLevel(level)
 
 
 class _Cluster(Executor):

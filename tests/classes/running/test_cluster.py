@@ -20,7 +20,7 @@ from singsym.classes.running.cluster import ClusterError, LostCall, cluster
 def address() -> Iterator[str]:
     """That of a scheduler with one worker, a process of its own."""
     distributed = pytest.importorskip("distributed")
-    with distributed.LocalCluster(n_workers=1, threads_per_worker=2, dashboard_address=None) as local:
+    with distributed.LocalCluster(n_workers=1, threads_per_worker=2, dashboard_address=":0") as local:
         yield local.scheduler_address
 
 
@@ -59,6 +59,21 @@ def test_a_call_over_which_workers_die_is_lost(address: str) -> None:
         with pytest.raises(LostCall, match="its worker died"):
             dying.result()
         assert executor.submit(abs, -1).result() == 1
+
+
+def test_calls_are_lost_with_their_scheduler(capfd: pytest.CaptureFixture[str]) -> None:
+    """Those under way and those that come later; Dask's own words do not reach the screen."""
+    distributed = pytest.importorskip("distributed")
+    with distributed.LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=":0") as local:
+        capfd.readouterr()
+        with cluster(local.scheduler_address) as executor:
+            running = executor.submit(time.sleep, 600)
+            local.close()
+            with pytest.raises(LostCall, match="has gone"):
+                running.result()
+            with pytest.raises(LostCall):
+                executor.submit(abs, -1).result()
+    assert capfd.readouterr().err == ""
 
 
 @pytest.fixture
@@ -123,7 +138,7 @@ def test_a_scheduler_without_workers(monkeypatch: pytest.MonkeyPatch) -> None:
     distributed = pytest.importorskip("distributed")
     monkeypatch.setattr(module, "_WORKER_SECONDS", 0.5)
     with (
-        distributed.LocalCluster(n_workers=0, dashboard_address=None) as local,
+        distributed.LocalCluster(n_workers=0, dashboard_address=":0") as local,
         pytest.raises(ClusterError, match="no worker of the scheduler"),
     ):
         connected(local.scheduler_address)
