@@ -98,3 +98,34 @@ def test_classes_of_one_loop() -> None:
     assert not result.undecided
     found = {c.types: (c.dimension, c.components) for c in result.classes if c.verdict.is_yes}
     assert found == {T.RI | T.IO: (1, 3), T.RO | T.II: (1, 1), T.RI | T.RO | T.IIM: (0, 2)}
+
+
+def test_classes_of_two_loops(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The types of one loop, and points with cranks in parallel and the rods of the second loop in a line.
+
+    Those are counted by a scan.  Over each of the two flat first loops, with the ends of the arms 3 and
+    sqrt(5) apart, the second closes in two ways.  Connected components are not counted: that takes minutes.
+    """
+    monkeypatch.setattr("singsym.classes.classify.MOST_FREEDOMS", 1)
+    result = classify(five_bars(2), cache=False, limits=Limits(total=120))
+    assert not any(c.verdict.is_undecided for c in result.classes)
+    found = {c.types: (c.dimension, c.points) for c in result.classes if c.verdict.is_yes}
+    assert found == {
+        T.RI | T.IO: (1, None),
+        T.RO | T.II: (1, None),
+        T.RI | T.RO | T.II | T.IO: (0, scanned_points()),
+        T.RI | T.RO | T.IIM: (0, 4),
+    }
+
+
+def scanned_points(steps: int = 100_001) -> int:
+    """How often the arms' ends are as far apart as the rods' lengths differ, with cranks in parallel."""
+    crank = np.exp(1j * (np.linspace(0, 2 * np.pi, steps) + 1e-5))
+    found = 0
+    for b, d in ((2 * crank, 3 + 2 * crank), (2 * crank, 3 - 2 * crank)):
+        for side in (1, -1):
+            c = joined(b, d, np.array(side))
+            apart = abs(b + (c - b) * ARMS[0] - d - (c - d) * ARMS[1])
+            assert apart.max() < sum(RODS)
+            found += int(np.abs(np.diff(np.sign(apart - (RODS[1] - RODS[0])))).sum()) // 2
+    return found

@@ -23,7 +23,7 @@ _ANSWER_SECONDS = 5.0
 """So long a scheduler has to answer."""
 _WORKER_SECONDS = 30.0
 """So long a first worker has to come, where none is there or all are busy."""
-_DIED = "its worker died, and so did those that were given it next; fewer threads leave more memory to each"
+_DIED = "its worker died over it, as often as it was tried; fewer threads leave more memory to each"
 _EXAMPLE = "tcp://127.0.0.1:8786"
 
 
@@ -40,8 +40,8 @@ def cluster(address: str) -> Iterator[Executor]:
     """An executor whose calls are done by the workers of the Dask scheduler at HOST:PORT.
 
     They must run the same program, to the last line, with the same engines; a call that one without it is
-    given is lost, as those whose worker dies are.  Left by an exception, it ends at once; workers finish what
-    they are at.
+    given is lost, as those whose worker dies are.  Where all workers have left, calls wait for others.  Left
+    by an exception, it ends at once; workers finish what they are at.
     Raises `ClusterError` where dask.distributed is not installed, where nobody answers, where no worker comes
     and where one runs another program.
     """
