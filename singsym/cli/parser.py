@@ -219,18 +219,25 @@ def _work(command: argparse.ArgumentParser) -> None:
         help="on the clock, a tenth or 60 for each part; what takes longer is undecided "
         "(default: 3600 of processor time, so that a busy machine changes no answer)",
     )
-    command.add_argument(
+    who = command.add_mutually_exclusive_group()
+    who.add_argument(
         "--workers", type=_at_least_one, default=_workers(), help="processes (default: %(default)s)"
+    )
+    who.add_argument(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="of a Dask cluster whose workers are used instead, as tcp://127.0.0.1:8786",
     )
     command.add_argument(
         "--no-cache", dest="cache", action="store_false", help="neither read nor keep results on disk"
     )
 
 
-def _workers() -> int:
+def _workers() -> str:
+    """The default, as text: argparse takes the same number for an option that was not given."""
     import os
 
-    return min(4, os.cpu_count() or 1)
+    return str(min(4, os.cpu_count() or 1))
 
 
 def _labels(command: argparse.ArgumentParser) -> None:

@@ -6,7 +6,8 @@ Source: sections 2.3, 3.1 and 3.2 of Zlatanov, Fenton, Benhabib (1998).
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, cast
 
 from singsym.cli.mechanisms import complaint, placed, read
@@ -15,6 +16,8 @@ from singsym.mechanism import Mechanism, MechanismError
 from singsym.mechanism.choices import is_redundant
 
 if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
     from singsym.classes.classify import Limits
     from singsym.classes.result import Classification
     from singsym.classes.solve import Solution
@@ -94,11 +97,12 @@ def classified(chosen: argparse.Namespace) -> Classification:
     mechanism = read(chosen)
     placed(mechanism, chosen.formulation)
     _resumable(chosen)
-    with engines.use(*chosen.engines), progress_shown():
+    with engines.use(*chosen.engines), progress_shown(), _cluster(chosen) as executor:
         return classify(
             mechanism,
             formulation=chosen.formulation,
             workers=chosen.workers,
+            executor=executor,
             limits=_limits(chosen),
             cache=chosen.cache,
         )
@@ -145,12 +149,13 @@ def run_solve(chosen: argparse.Namespace) -> int:
     placed(mechanism, chosen.formulation)
     _resumable(chosen)
     try:
-        with engines.use(*chosen.engines), progress_shown():
+        with engines.use(*chosen.engines), progress_shown(), _cluster(chosen) as executor:
             found = solve(
                 mechanism,
                 *dict.fromkeys(chosen.labels),
                 formulation=chosen.formulation,
                 workers=chosen.workers,
+                executor=executor,
                 limits=_limits(chosen),
                 cache=chosen.cache,
             )
@@ -175,6 +180,21 @@ def _emit_solutions(mechanism: Mechanism, found: Sequence[Solution], chosen: arg
         from singsym.output.text import solution_page
 
         emit_page(solution_page(mechanism.name, found))
+
+
+@contextmanager
+def _cluster(chosen: argparse.Namespace) -> Iterator[Executor | None]:
+    """The cluster of --scheduler; None without, where the work is done by processes of this machine."""
+    if chosen.scheduler is None:
+        yield None
+        return
+    from singsym.classes.running.cluster import ClusterError, cluster
+
+    try:
+        with cluster(chosen.scheduler) as executor:
+            yield executor
+    except ClusterError as error:
+        raise UserError(str(error)) from None
 
 
 def _limits(chosen: argparse.Namespace) -> Limits:

@@ -13,7 +13,8 @@ import pytest
 
 from singsym.classes.classify import Limits, classify
 from singsym.classes.taxonomy.types import SingularityType as T
-from singsym.mechanism import Mechanism, load, loads
+from singsym.mechanism import Mechanism, load
+from tests.classes.chains import four_bars
 
 STEPS = 200_001
 Complex = np.ndarray
@@ -46,19 +47,6 @@ def found_by_singsym(mechanism: Mechanism) -> dict[T, int | None]:
     return {c.types: c.points for c in result.classes if c.verdict.is_yes}
 
 
-def chain(loops: int) -> Mechanism:
-    """Four-bars in series: pivots (4 i, i mod 2), crank 2, couplers 4, rockers 3 with an arm [1, 2]."""
-    points = ", ".join(f"P{i} = [{4 * i}, {i % 2}]" for i in range(loops + 1))
-    lines = [f'name = "chain {loops}"', 'inputs = ["P0"]', f'output = {{ rate = "P{loops}" }}', "[links]"]
-    lines += [f"ground = {{ points = {{ {points} }} }}", "P0B1 = 2", f"P{loops}C{loops} = 3"]
-    for i in range(1, loops + 1):
-        lines.append(f"B{i}C{i} = 4")
-        if i < loops:
-            lines.append(f"rocker{i} = {{ points = {{ P{i} = [0, 0], C{i} = [3, 0], B{i + 1} = [1, 2] }} }}")
-    names = [*(f"P{i}" for i in range(loops + 1)), *(f"{x}{i}" for i in range(1, loops + 1) for x in "BC")]
-    return loads("\n".join([*lines, "[joints]", *(f'{name} = "R"' for name in names)]))
-
-
 def scanned_chain(loops: int) -> dict[T, int]:
     crank = 2 * np.exp(1j * (np.linspace(0, 2 * np.pi, STEPS) + 1e-5))
     ends = [(crank, np.ones(STEPS, dtype=bool))]
@@ -72,7 +60,7 @@ def scanned_chain(loops: int) -> dict[T, int]:
 @pytest.mark.parametrize("loops", [2, 3, 4])
 def test_four_bars_in_series(loops: int) -> None:
     """14, 34 and 76 rests by the scan, and no end."""
-    assert found_by_singsym(chain(loops)) == scanned_chain(loops)
+    assert found_by_singsym(four_bars(loops)) == scanned_chain(loops)
 
 
 def scanned_jansen() -> dict[T, int]:

@@ -1,1 +1,1 @@
-"""How tasks run: on several processes, with a cache on disk of what was found."""
+"""How tasks run: on several processes or a cluster, with a cache on disk of what was found."""

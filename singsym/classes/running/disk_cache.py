@@ -77,9 +77,8 @@ class Cache:
 
     @cached_property
     def versions(self) -> list[str]:
-        """Of singsym, to its last line, and of all that its results depend on."""
-        libraries = [f"{name} {_version(name)}" for name in ("singsym", *_LIBRARIES)]
-        return [_digest_of_sources(), *libraries, *(f"{row.name} {row.version}" for row in engines.status())]
+        """Those of the program here."""
+        return versions()
 
     def entry(self, function: Callable[[T], R], task: T) -> Entry[R] | None:
         """The entry of a task, which the annotations of its function say the types of.
@@ -143,6 +142,12 @@ class Cache:
         if self.folder not in _reported:
             _reported.add(self.folder)
             log.warning("results are not kept in %s: %s", self.folder, reason)
+
+
+def versions() -> list[str]:
+    """Of singsym, to its last line, and of all that its results depend on."""
+    libraries = [f"{name} {_version(name)}" for name in ("singsym", *_LIBRARIES)]
+    return [_digest_of_sources(), *libraries, *(f"{row.name} {row.version}" for row in engines.status())]
 
 
 def cache_folder() -> Path | None:

@@ -189,11 +189,8 @@ def _sharpened(
         # the next step would be shorter than the square of this one, up to a factor
         negligible = arb(2) ** (-(bits // 2) - 16)
         for _ in range(bits.bit_length() + 8):
-            slopes = arb_mat([[evaluate(d, point) if d else arb(0) for d in row] for row in derivatives])
-            values = arb_mat([[evaluate(f, point)] for f in equations])
-            try:
-                step = slopes.solve(values)
-            except ZeroDivisionError:
+            step = _newton_step(equations, derivatives, point)
+            if step is None:
                 return None
             for i, k in enumerate(places):
                 point[k] = arb((point[k] - step[i, 0]).mid())
@@ -204,3 +201,15 @@ def _sharpened(
             return None
         new = tuple(exact_bounds(point[k])[0] if k in places else middles[k] for k in range(len(ring.names)))
     return BoxPoint(ring, equations, unknowns, new, radius, bits)
+
+
+def _newton_step(
+    equations: Sequence[Polynomial], derivatives: Sequence[Sequence[Polynomial]], point: Sequence[arb]
+) -> arb_mat | None:
+    """What is to be taken from the unknowns; None where the Jacobian matrix may be singular."""
+    slopes = arb_mat([[evaluate(d, point) if d else arb(0) for d in row] for row in derivatives])
+    values = arb_mat([[evaluate(f, point)] for f in equations])
+    try:
+        return slopes.solve(values)
+    except ZeroDivisionError:
+        return None
