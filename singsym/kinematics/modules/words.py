@@ -66,10 +66,9 @@ def _driven(part: Part, places: Places, driven_link: str) -> str:
         return f"slide {joint.name}"
     if not part.links:
         return f"joint {part.driven[0]}"
+    text = f"{part.links[0]} at {joint.name}"
     is_crank = places.is_closed and places.mechanism.ground in (joint.first, joint.second)
-    return (
-        f"{driven_link} {part.links[0]} at {joint.name}" if is_crank else f"{part.links[0]} at {joint.name}"
-    )
+    return f"{driven_link} {text}" if is_crank and part.links[0] != driven_link else text
 
 
 def _assur_group(part: Part) -> str:

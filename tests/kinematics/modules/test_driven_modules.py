@@ -59,6 +59,14 @@ def test_stephenson_is_two_dyads_or_a_triad() -> None:
     assert parents(driven_modules(six)["inputs"]) == [(), (0,), (0, 1)]
 
 
+def test_a_quadrilateral_is_a_group_of_four_links() -> None:
+    """Stephenson II: from the crank three rods hold the plate; from DG the loop BCFE hangs on A and G."""
+    six = load("stephenson-two-six-bar")
+    assert words(six, "inputs") == ["crank at A", "triad C, F and G from B, E and D, 3 unknowns"]
+    group = "Assur group of 4 links from A and G, 4 unknowns"
+    assert words(six, "outputs") == ["follower DG at D", group]
+
+
 def test_slotted_levers_are_dyads_though_the_formulation_counts_along_the_slot() -> None:
     """B is on the crank: the block and the slotted link hang on B and D and slide along each other."""
     found = driven_modules(load("whitworth"))["inputs"]
@@ -75,8 +83,8 @@ def test_slotted_levers_are_dyads_though_the_formulation_counts_along_the_slot()
 def test_a_walking_leg() -> None:
     """Jansen's: both knees hang on the crank pin and the fixed pivot, the foot on both."""
     found = driven_modules(load(LEG))["inputs"]
-    _, *dyads = [m.words for m in found.modules]
-    assert dyads == ["dyad C from A and B", "dyad D from A and B", "dyad G from D and E"]
+    dyads = ["dyad C from A and B", "dyad D from A and B", "dyad G from D and E"]
+    assert [m.words for m in found.modules] == ["crank at O", *dyads]
     assert parents(found) == [(), (0,), (0,), (1, 2)]
 
 
