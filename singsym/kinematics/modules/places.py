@@ -112,18 +112,16 @@ class Places:
 
     def _pin(self, name: str) -> Names:
         """What tells where a pin is."""
-        place = self._pin_places.get(name, ())
-        own = ((f"{name}.{axis}", x) for axis, x in zip("xy", place, strict=False))
-        return tuple(n for key, x in own for n in ((key,) if key in self.coordinates else x.variables))
+        return tuple(n for axis in self._axes(name, self._pin_places.get(name, ())) for n in axis)
 
     def point(self, link: str, point: str) -> tuple[Names, ...] | None:
         """What tells each coordinate of a link's point; None where it is not placed."""
         place = self.placed.link_points.get((link, point))
-        if place is None:
-            return None
-        keys = [f"{self._pins.get((link, point))}.{axis}" for axis in "xyz"]
-        told = (n if key in self.coordinates else None for key, n in zip(keys, keys, strict=True))
-        return tuple((k,) if k else x.variables for k, x in zip(told, place, strict=False))
+        return None if place is None else self._axes(self._pins.get((link, point), ""), place)
+
+    def _axes(self, pin: str, place: Coordinates) -> tuple[Names, ...]:
+        named = ((f"{pin}.{axis}", x) for axis, x in zip("xyz", place, strict=False))
+        return tuple((key,) if key in self.coordinates else x.variables for key, x in named)
 
     # -- links ----------------------------------------------------------------------------------------
 
@@ -166,7 +164,7 @@ class Places:
         value = self.placed.values.get(column)
         if value is None:
             return tuple(name for link in (joint.first, joint.second) for name in self.poses[link] or ())
-        if {joint.first, joint.second} & {*self._bars}:
+        if value.cosine is not None and {joint.first, joint.second} & {*self._bars}:
             return (*self.heading(joint.first), *self.heading(joint.second))
         parts = (value.cosine, value.sine, value.length, value.square)
         return variables_of(p for p in parts if p is not None)
@@ -188,7 +186,7 @@ class Places:
                 square = square + gap * gap
             square = short(ring.reduced(square))
             for equation in self.placed.space.equations:
-                if (equation - square).is_constant:
+                if not self.variables((equation - square).variables):
                     found[equation] = (*self._pin(p), *self._pin(q))
         return found
 

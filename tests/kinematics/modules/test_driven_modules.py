@@ -80,6 +80,15 @@ def test_slotted_levers_are_dyads_though_the_formulation_counts_along_the_slot()
     assert [m.unknowns for m in (crank, dyad, ram)] == [2, 2, 1]
 
 
+def test_lengths_left_open_change_nothing() -> None:
+    """The same linkage with parameters without values."""
+    lever = load("crank-slotted-lever")
+    names = {p.name: None for p in lever.parameters}
+    assert names
+    assert words(lever.with_parameters(**names), "inputs") == words(lever, "inputs")
+    assert words(lever, "inputs") == ["crank AB at A", "slider dyad P from B and D"]
+
+
 def test_a_walking_leg() -> None:
     """Jansen's: both knees hang on the crank pin and the fixed pivot, the foot on both."""
     found = driven_modules(load(LEG))["inputs"]
