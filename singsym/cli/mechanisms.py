@@ -117,9 +117,12 @@ def run_show(chosen: argparse.Namespace) -> int:
         return 0
     equation = placed(mechanism, chosen.formulation)
     if chosen.format == "json":
+        from singsym.kinematics.modules import driven_modules
+        from singsym.output.module_graph import modules_data
         from singsym.output.plain_data import mechanism_data
 
         found = mechanism_data(mechanism, equation)
+        found |= {"modules": modules_data(driven_modules(mechanism, chosen.formulation))}
         if robot is not None:
             from singsym.output.robot_page import robot_data
 
@@ -131,9 +134,12 @@ def run_show(chosen: argparse.Namespace) -> int:
         body = mechanism_latex(mechanism, equation)
         print(document(body, mechanism.title or mechanism.name) if chosen.standalone else body)
     else:
+        from singsym.kinematics.modules import driven_modules
+        from singsym.output.module_graph import modules_page
         from singsym.output.text import mechanism_page
 
-        page = mechanism_page(mechanism, equation)
+        modules = modules_page(driven_modules(mechanism, chosen.formulation))
+        page = (*mechanism_page(mechanism, equation), *modules)
         if robot is not None:
             from singsym.output.robot_page import robot_page
 

@@ -69,7 +69,14 @@ def parser() -> argparse.ArgumentParser:
     shown = _formats("text", "latex", "json", "toml")
     add("list", "mechanisms", "the mechanisms of the library", short)
     add("new", "mechanisms", "write a commented mechanism file to start from", _name)
-    add("show", "mechanisms", "a mechanism's joints, loop equations and L", _mechanism, shown, _standalone)
+    add(
+        "show",
+        "mechanisms",
+        "a mechanism's joints, loop equations, L and modules",
+        _mechanism,
+        shown,
+        _standalone,
+    )
     add("check", "mechanisms", "what is wrong with a mechanism, if anything", _mechanism, short)
     whole = (_mechanism, _work, printed, _standalone)
     words = "conditions (4), (5), (i)-(viii), factored"
@@ -87,7 +94,12 @@ def parser() -> argparse.ArgumentParser:
         _standalone,
     )
     add(
-        "plot", "pictures", "draw the mechanism, a class or the singularity curves", _mechanism, _work, _shown
+        "plot",
+        "pictures",
+        "draw the mechanism, its modules, a class or the singularity curves",
+        _mechanism,
+        _work,
+        _shown,
     )
     add("report", "pictures", "one HTML page with everything about a mechanism", _mechanism, _work, _output)
     words = "a web page of each mechanism of the library, and an index"
@@ -297,6 +309,13 @@ def _shown(command: argparse.ArgumentParser) -> None:
     )
     choice.add_argument(
         "--strata", dest="shown", action="store_const", const="strata", help="which class borders on which"
+    )
+    choice.add_argument(
+        "--modules",
+        dest="shown",
+        action="store_const",
+        const="modules",
+        help="what is solved after what, driven from the inputs and from the outputs",
     )
 
 

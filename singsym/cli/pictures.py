@@ -34,7 +34,7 @@ def run_report(chosen: argparse.Namespace) -> int:
 
 
 def run_plot(chosen: argparse.Namespace) -> int:
-    """`singsym plot MECHANISM`: the mechanism, a class, the curves or the strata; prints the file's name."""
+    """`singsym plot MECHANISM`: the mechanism, its modules or what was found; prints the file's name."""
     path = Path(chosen.output or f"{Path(chosen.mechanism).stem}.svg")
     _writable(path)
     code = 0
@@ -44,6 +44,11 @@ def run_plot(chosen: argparse.Namespace) -> int:
 
             mechanism = read(chosen)
             picture = plot_mechanism(mechanism, equation=placed(mechanism, chosen.formulation))
+        elif chosen.shown == "modules":
+            from singsym.kinematics.modules import driven_modules
+            from singsym.output.module_graph import plot_modules
+
+            picture = plot_modules(driven_modules(read(chosen), chosen.formulation))
         else:
             result = classified(chosen)
             code = UNDECIDED if result.undecided else 0

@@ -5,7 +5,7 @@ Source: Zlatanov, Fenton, Benhabib (1998), section 2.4, the loop equations I(q) 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 from singsym.polynomials import Polynomial, Ring
@@ -78,6 +78,7 @@ class Placement:
     idle_spins: pairs (S joint name, direction) along which a link between two spherical joints would spin
         idly; velocity.py adds the row direction . (spin of that joint) = 0 for each.
     values: column label -> the joint's value, where the formulation can tell it.
+    headings: link -> the variables that its orientation depends on.
     """
 
     space: ConfigurationSpace
@@ -85,3 +86,9 @@ class Placement:
     link_points: Mapping[tuple[str, str], Coordinates]
     idle_spins: tuple[tuple[str, Coordinates], ...] = ()
     values: Mapping[str, JointValue] = field(default_factory=dict)
+    headings: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+
+def variables_of(polynomials: Iterable[Polynomial]) -> tuple[str, ...]:
+    """The ring's names in any of some polynomials, in the order of their appearance."""
+    return tuple(dict.fromkeys(name for p in polynomials for name in p.variables))

@@ -15,7 +15,8 @@ import networkx
 from singsym.classes.result import Classification, Piece
 from singsym.effort.budget import Budget, Undecided
 from singsym.elimination.ideal import Ideal
-from singsym.output.figures.style import INK, LINK, PALE, PLATFORM, Picture, canvas
+from singsym.output.figures.layers import Arrow, Box, box_width, draw_layers, row_height
+from singsym.output.figures.style import INK, LINK, PLATFORM, Picture, canvas
 from singsym.varieties.real.dimension.extent import union
 
 MANY = 16
@@ -134,44 +135,26 @@ def plot_strata(classification: Classification, graph: networkx.DiGraph | None =
     rows: dict[int, list[Any]] = {}
     for node, dimension in graph.nodes(data="dimension"):
         rows.setdefault(dimension, []).append(node)
-    widest = max(len(row) for row in rows.values())
-    place: dict[Any, tuple[float, float]] = {}
     order = sorted(rows, reverse=True)
-    for level, dimension in enumerate(order):
-        above = {n: _middle(graph, n, place) for n in rows[dimension]}
-        row = sorted(rows[dimension], key=lambda n: (above[n], n))
-        for i, node in enumerate(row):
-            place[node] = ((i + 0.5) * widest / len(row), -1.6 * level)
-    letters = max(len(line) for _, label in graph.nodes(data="label") for line in label.split("\n"))
-    figure = canvas(max(5.0, (0.6 + 0.075 * letters) * widest), 0.8 + 1.5 * len(order))
+    boxes = {node: _box(data) for node, data in graph.nodes(data=True)}
+    widest = max(len(row) for row in rows.values())
+    figure = canvas(max(5.0, box_width(boxes.values()) * widest), 0.8 + 1.5 * len(order))
     axes = figure.add_subplot()
-    axes.axis("off")
-    boxes = {}
-    for node, data in graph.nodes(data=True):
-        count = f"\n{data['points']} points" if data["points"] else ""
-        box = {"boxstyle": "round,pad=0.4", "fc": LINK if data["number"] else PLATFORM, "ec": INK}
-        text = f"{data['label']}{count}"
-        shown = axes.text(
-            *place[node], text, ha="center", va="center", fontsize=8.5, color=INK, bbox=box, zorder=3
-        )
-        boxes[node] = shown.get_bbox_patch()
-    for a, b, whole in graph.edges(data="whole"):
-        line = {"arrowstyle": "-|>", "color": PALE, "lw": 1.3, "ls": "-" if whole else "--"}
-        arrow = {**line, "patchA": boxes[a], "patchB": boxes[b], "shrinkA": 1, "shrinkB": 1}
-        axes.annotate("", place[b], place[a], arrowprops=arrow, zorder=1)
-    for level, dimension in enumerate(order):
-        axes.text(-0.55, -1.6 * level, f"dim {dimension}", ha="right", va="center", fontsize=9, color=INK)
-    axes.set(xlim=(-1.1, widest + 0.1), ylim=(-1.6 * (len(order) - 1) - 0.7, 0.7))
+    arrows = [Arrow(*edge) for edge in graph.edges(data="whole")]
+    draw_layers(axes, [rows[dimension] for dimension in order], boxes, arrows)
+    for row, dimension in enumerate(order):
+        style = {"ha": "right", "va": "center", "fontsize": 9, "color": INK}
+        axes.text(-0.55, row_height(row), f"dim {dimension}", **style)
+    axes.set(xlim=(-1.1, widest + 0.1))
     title = "Strata, with arrows into the closures that hold them"
     figure.suptitle(title, fontsize=12, color=INK)
     lines = [f"{_one_line(graph, a)} lies in the closure of {_one_line(graph, b)}" for a, b in graph.edges]
     return Picture(figure, title, "; ".join(lines))
 
 
-def _middle(graph: networkx.DiGraph, node: Any, place: dict[Any, tuple[float, float]]) -> float:
-    """The mean place of what lies above, so that few edges cross."""
-    above = [place[n][0] for n in graph.successors(node) if n in place]
-    return sum(above) / len(above) if above else 0.0
+def _box(data: dict[str, Any]) -> Box:
+    count = f"\n{data['points']} points" if data["points"] else ""
+    return Box(f"{data['label']}{count}", LINK if data["number"] else PLATFORM)
 
 
 def _one_line(graph: networkx.DiGraph, node: Any) -> str:

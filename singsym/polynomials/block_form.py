@@ -6,7 +6,7 @@ Computing the block triangular form of a sparse matrix, ACM Trans. Math. Softw. 
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -63,13 +63,27 @@ def block_form(equations: Sequence[Polynomial], given: Collection[str] = ()) -> 
     ('x', 'y')
     """
     names = {k: [n for n in p.variables if n not in given] for k, p in enumerate(equations)}
+    blocks = square_blocks(names)
+    matched = {k: name for block in blocks for k, name in block.items()}
+    left_over = tuple(p for k, p in enumerate(equations) if k not in matched)
+    everything = dict.fromkeys(name for own in names.values() for name in own)
+    free = tuple(name for name in everything if name not in matched.values())
+    return SolvingOrder(tuple(_module(equations, list(b), b) for b in blocks), left_over, free)
+
+
+def square_blocks(names: Mapping[int, Sequence[str]]) -> tuple[dict[int, str], ...]:
+    """The blocks of an incidence, in an order in which they can be solved: rows and the unknown of each.
+
+    names: the unknowns in each row.  Rows that come first are matched first; those that find no unknown of
+    their own are in no block.
+
+    >>> square_blocks({0: ("y", "z"), 1: ("x",), 2: ("x", "y", "z"), 3: ("x",)})
+    ({1: 'x'}, {0: 'z', 2: 'y'})
+    """
     owner = _matching(names)
     unknown_of = {k: name for name, k in owner.items()}
     needs = ((owner[name], k) for k in unknown_of for name in names[k] if name in owner)
-    modules = tuple(_module(equations, own, unknown_of) for own in ordered_components(unknown_of, needs))
-    left_over = tuple(p for k, p in enumerate(equations) if k not in unknown_of)
-    everything = dict.fromkeys(name for own in names.values() for name in own)
-    return SolvingOrder(modules, left_over, tuple(name for name in everything if name not in owner))
+    return tuple({k: unknown_of[k] for k in own} for own in ordered_components(unknown_of, needs))
 
 
 def ordered_components(nodes: Iterable[int], edges: Iterable[tuple[int, int]]) -> list[list[int]]:
@@ -121,7 +135,7 @@ def _last_module(equations: Sequence[Polynomial], size: int) -> Module | None:
     return None
 
 
-def _matching(names: dict[int, list[str]]) -> dict[str, int]:
+def _matching(names: Mapping[int, Sequence[str]]) -> dict[str, int]:
     """An equation for each of as many unknowns as possible, by augmenting paths (Kuhn)."""
     owner: dict[str, int] = {}
 

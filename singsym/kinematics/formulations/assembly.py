@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from singsym.kinematics.dimensions import Sized
 from singsym.kinematics.formulations import closure, local
 from singsym.kinematics.formulations.frames import Algebra, Body, Unplaced
-from singsym.kinematics.placement import ConfigurationSpace, Coordinates, JointValue, Placement
+from singsym.kinematics.placement import ConfigurationSpace, Coordinates, JointValue, Placement, variables_of
 from singsym.mechanism.model import Joint, Mechanism, Space
 from singsym.polynomials import Polynomial
 from singsym.polynomials.short_forms import short_forms
@@ -81,7 +81,21 @@ def placement(assembly: Assembly, sized: Sized, formulation: str) -> Placement:
         link_points,
         tuple(assembly.idle_spins),
         assembly.values,
+        _headings(assembly),
     )
+
+
+def _headings(assembly: Assembly) -> dict[str, tuple[str, ...]]:
+    """The variables of each body's vectors; those of a strut's line where its two bodies have none."""
+    found = {
+        link: variables_of(x for vector in body.basis for x in vector)
+        for link, body in assembly.bodies.items()
+    }
+    for joint in assembly.mechanism.joints:
+        if joint.name in assembly.scaled:
+            line = variables_of(assembly.scaled[joint.name])
+            found |= {joint.first: line, joint.second: line}
+    return found
 
 
 def _in_space(space: Space, screw: Coordinates) -> Coordinates:

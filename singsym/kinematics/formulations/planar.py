@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from singsym.kinematics.dimensions import Sized, dimensions
 from singsym.kinematics.formulations.planar_plan import Pin, Plan, plan
-from singsym.kinematics.placement import ConfigurationSpace, Coordinates, JointValue, Placement
+from singsym.kinematics.placement import ConfigurationSpace, Coordinates, JointValue, Placement, variables_of
 from singsym.mechanism.model import Joint, JointKind, Mechanism
 from singsym.polynomials import Polynomial
 from singsym.polynomials.short_forms import short_forms
@@ -86,7 +86,12 @@ class _Placing:
         for joint in self.mechanism.joints:
             screws |= self._screws(joint)
             values |= self._value(joint)
-        return Placement(space, screws, self.points, (), values)
+        headings = {link: variables_of((h.x, h.y)) for link, h in self.headings.items()}
+        for joint in self.mechanism.joints:
+            if joint.name in self.plan.struts:
+                line = variables_of(screws[joint.name])
+                headings |= {joint.first: line, joint.second: line}
+        return Placement(space, screws, self.points, (), values, headings)
 
     def _directions(self) -> tuple[Pair, ...]:
         """The names of each heading's cosine and sine."""
