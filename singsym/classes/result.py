@@ -214,6 +214,13 @@ class Classification:
             yield f"class {found.singularity_class.number}", found
 
     @property
+    def summary(self) -> tuple[str, ...]:
+        """Where the mechanism locks and goes slack, and what is known of the classes, in a few lines."""
+        from singsym.classes.summary import summary
+
+        return summary(self)
+
+    @property
     def parameters_note(self) -> str:
         """Which parameters have no value and count as dimensions; empty where all have."""
         names = self.equation.space.parameters
@@ -227,14 +234,18 @@ class Classification:
         raise KeyError(f"{types!r} is not one of the {len(self.classes)} classes")
 
     def _repr_html_(self) -> str:
+        from singsym.classes.summary import empty_text, shown_classes
+
         headers = ("class", "types", "there?", "dimension", "points", "components", "step")
         rows = [
             (c.singularity_class.number, c.singularity_class.name, c.verdict.answer, *_sizes(c), *c.steps)
-            for c in self.classes
+            for c in shown_classes(self)
         ]
         questions = gathered(self.open_questions())
-        open_ones = _html_table(("open", "why"), questions) if questions else ""
-        return _html_table(headers, rows) + open_ones + "".join(f"<p>{escape(n)}</p>" for n in self.notes())
+        parts = ["<br>".join(map(escape, self.summary)), _html_table(headers, rows) if rows else ""]
+        parts += [escape(empty_text(self)), _html_table(("open", "why"), questions) if questions else ""]
+        parts += map(escape, self.notes())
+        return "".join(p if p.startswith("<table") else f"<p>{p}</p>" for p in parts if p)
 
 
 def _open(what: str, found: Locus | ClassResult) -> Iterator[tuple[str, str]]:

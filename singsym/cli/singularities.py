@@ -38,7 +38,7 @@ def run_conditions(chosen: argparse.Namespace) -> int:
         body = conditions_latex(found, mechanism)
         print(document(body, mechanism.title or mechanism.name) if chosen.standalone else body)
     else:
-        from singsym.output.text import conditions_page
+        from singsym.output.conditions_page import conditions_page
 
         emit_page((mechanism.name, *conditions_page(found)))
     return 0

@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
-from singsym.output.pieces import Group, extent_of, filled, grouped, known_by, loop_equations, moving, varying
+from singsym.output.pieces import Group, extent_of, filled, grouped, loop_equations, moving, varying
 from singsym.polynomials.latex import polynomial_latex, symbol_latex
 
 if TYPE_CHECKING:
@@ -267,17 +267,21 @@ def classification_latex(result: Classification) -> str:
         parts += [r"\section*{Pieces of the configuration space}", _space(result.configuration_space)]
     if result.loci:
         parts += [r"\section*{Singularity set}", _loci(result.loci)]
-    parts += [r"\section*{Classes}", _class_table(result)]
+    parts += [r"\section*{Classes}", _itemized(result.summary), *_class_table(result)]
     if result.parameters_note:
         parts.append(f"Here {escaped(result.parameters_note)}.")
     parts += [_class(c, result) for c in result.classes if c.verdict.is_yes]
     questions = [f"{what}: {reason}" for what, reason in gathered(result.open_questions())]
     for head, lines in (("Remarks", result.notes()), ("Open", questions)):
         if lines:
-            items = "\n".join(f"\\item {escaped(line)}" for line in lines)
-            parts.append(f"\\subsection*{{{head}}}\n\\begin{{itemize}}\n{items}\n\\end{{itemize}}")
+            parts.append(f"\\subsection*{{{head}}}\n{_itemized(lines)}")
     parts.append(f"Engines: {escaped(', '.join(result.engines))}; seed {result.seed}.")
     return "\n\n".join(parts)
+
+
+def _itemized(lines: Iterable[str]) -> str:
+    items = "\n".join(f"\\item {escaped(line)}" for line in lines)
+    return f"\\begin{{itemize}}\n{items}\n\\end{{itemize}}"
 
 
 def _space(pieces: Sequence[SpacePiece]) -> str:
@@ -314,8 +318,10 @@ def _locus_name(locus: Locus) -> str:
     return escaped(locus.words) if locus.words else shown
 
 
-def _class_table(result: Classification) -> str:
+def _class_table(result: Classification) -> list[str]:
+    """The classes that occur or are open, and those that are empty on a line."""
     from singsym.classes.result import counts
+    from singsym.classes.summary import empty_text, known_by, shown_classes
 
     headers = ("class", "types", "there?", "known by", "dimension", "points", "components", "step")
     rows = [
@@ -328,9 +334,13 @@ def _class_table(result: Classification) -> str:
             *counts(c),
             ", ".join(c.steps),
         )
-        for c in result.classes
+        for c in shown_classes(result)
     ]
-    return _table(("r", "l", "l", "l", "c", "c", "c", "l"), headers, rows)
+    table = _table(("r", "l", "l", "l", "c", "c", "c", "l"), headers, rows) if rows else ""
+    empty = empty_text(result)
+    types = dict.fromkeys(line for c in shown_classes(result) for line in c.types.explained)
+    parts = (table, f"{escaped(empty)}." if empty else "", _itemized(types) if types else "")
+    return [part for part in parts if part]
 
 
 def _class(result: ClassResult, whole: Classification) -> str:

@@ -9,11 +9,10 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from singsym.effort.verdict import described
 from singsym.polynomials import Equations
 
 if TYPE_CHECKING:
-    from singsym.classes.result import Classification, ClassResult, Locus, Piece
+    from singsym.classes.result import ClassResult, Locus, Piece
     from singsym.kinematics.velocity import VelocityEquation
     from singsym.varieties.real.dimension.extent import Extent
 
@@ -96,13 +95,3 @@ def counted(number: int | str, one: str) -> str:
     """A number of things in words, and what stands for a number as it is."""
     text = str(number)
     return f"{text} {one}{'' if text == '1' else 's'}" if text.isdecimal() or text == "?" else text
-
-
-def known_by(result: Classification, number: int) -> str:
-    """How the verdict on a class is known: its certainty, or that the mobility forbids the class."""
-    from singsym.classes.taxonomy.types import feasible_classes
-
-    found = next(c for c in result.classes if c.singularity_class.number == number)
-    if found.singularity_class not in feasible_classes(result.equation.n):
-        return f"impossible for n = {result.equation.n}"
-    return "" if found.verdict.is_undecided else described(found.verdict.certainty)

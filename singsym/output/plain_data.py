@@ -131,6 +131,7 @@ def classification_data(found: Classification) -> dict[str, Any]:
         "mechanism": found.mechanism.name if found.mechanism else "",
         "N": found.equation.N,
         "n": found.equation.n,
+        "summary": list(found.summary),
         "parameters": list(found.equation.space.parameters),
         "configuration_space": [
             {

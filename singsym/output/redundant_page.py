@@ -9,10 +9,11 @@ from typing import Any
 
 from singsym.conditions.redundant import RedundantChain
 from singsym.mechanism import Mechanism
+from singsym.output.conditions_page import condition_text
 from singsym.output.latex import condition_latex, mechanism_latex
 from singsym.output.page import Page
 from singsym.output.plain_data import condition_data, equation_data
-from singsym.output.text import condition_text, matrix_page
+from singsym.output.text import matrix_page
 
 
 def redundant_page(found: RedundantChain) -> Page:

@@ -5,20 +5,19 @@ Source: the layout follows section 3.3 and Table 2 of Zlatanov, Fenton, Benhabib
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from html import escape
 
 from singsym.classes.configuration.null_motions import Motion
 from singsym.classes.result import Classification, ClassResult, Piece, gathered
+from singsym.classes.summary import empty_classes, known_by, shown_classes
 from singsym.classes.taxonomy.types import SingularityType
-from singsym.effort.verdict import described
 from singsym.mechanism.model import JointRate
 from singsym.output.html import mathml as math
 from singsym.output.html import page as html
+from singsym.output.html.proofs import proofs
 from singsym.output.pieces import (
     counted,
     extent_of,
-    known_by,
     loop_equations,
     moving,
     parts_of,
@@ -55,7 +54,7 @@ def report(classification: Classification) -> str:
         ("curves", "Singularity curves", _curves(classification)),
         ("strata", "Strata", _strata(classification)),
         ("equations", "Equations", _equations(classification)),
-        ("proofs", "Proofs", _proofs(classification)),
+        ("proofs", "Proofs", proofs(classification)),
     ]
     shown = [(key, title, body) for key, title, body in sections if body]
     links = "".join(f'<li><a href="#{key}">{title}</a></li>' for key, title, _ in shown)
@@ -81,7 +80,7 @@ def _head(classification: Classification) -> str:
     if classification.parameters_note:
         facts.append(classification.parameters_note)
     if mechanism is None:
-        return f"<p>{'; '.join(facts)}.</p>"
+        return f"{_glance(classification)}<p>{'; '.join(facts)}.</p>"
     outputs = [
         f"rate of {o.column}"
         if isinstance(o, JointRate)
@@ -99,7 +98,13 @@ def _head(classification: Classification) -> str:
     except ValueError:
         # no configuration was found numerically: the page does without the figure
         drawn = ""
-    return f'<div class="class"><div>{text}<ul>{lines}</ul>{source}</div>{drawn}</div>'
+    glance = _glance(classification)
+    return f'<div class="class"><div>{glance}{text}<ul>{lines}</ul>{source}</div>{drawn}</div>'
+
+
+def _glance(classification: Classification) -> str:
+    """What a designer asks, answered."""
+    return html.listed(classification.summary, "glance")
 
 
 # -- summary -------------------------------------------------------------------------------------------
@@ -123,7 +128,7 @@ def _summary(classification: Classification) -> str:
     return (
         f"<ul>{''.join(space)}</ul>"
         "<p>Conditions (4) and (5), det L<sub>I</sub> = 0 and det L<sub>O</sub> = 0, in factors:</p>"
-        f"{loci}<h3>The 21 classes</h3>{_class_table(classification)}{_open(classification)}"
+        f"{loci}<h3>The classes</h3>{_class_table(classification)}{_open(classification)}"
     )
 
 
@@ -146,15 +151,14 @@ def _locus_name(classification: Classification, index: int) -> str:
 
 def _class_table(classification: Classification) -> str:
     rows = []
-    for result in classification.classes:
+    for result in shown_classes(classification):
         number, verdict = result.singularity_class.number, result.verdict
         target = f"class-{number}" if verdict.is_yes else f"proof-{number}"
-        style = "no" if verdict.is_no else "undecided" if verdict.is_undecided else ""
-        there = {"yes": "yes", "no": "no", "undecided": "undecided"}[str(verdict.answer)]
+        style = "undecided" if verdict.is_undecided else ""
         cells = (
             f'<a href="#{target}">{number}</a>',
             escape(result.singularity_class.name),
-            there,
+            str(verdict.answer),
             extent_of(result),
             parts_of(result),
             escape(", ".join(result.steps)),
@@ -162,7 +166,14 @@ def _class_table(classification: Classification) -> str:
         )
         rows.append((style, cells))
     headers = ("class", "types", "there?", "dimension", "parts", "step of §3.2", "known by")
-    return html.table(headers, rows, "The 21 classes")
+    table = html.table(headers, rows, "The classes that occur or are open") if rows else ""
+    said = []
+    for how, numbers in empty_classes(classification).items():
+        links = ", ".join(f'<a href="#proof-{n}">{n}</a>' for n in numbers)
+        said.append(f"{links} ({escape(how)})")
+    empty = f"<p>Empty: {'; '.join(said)}</p>" if said else ""
+    types = {line: None for c in shown_classes(classification) for line in c.types.explained}
+    return f"{table}{empty}{html.listed(types, 'note')}"
 
 
 # -- classes -------------------------------------------------------------------------------------------
@@ -336,7 +347,7 @@ def _strata(classification: Classification) -> str:
     return html.figure(plot_strata(classification, graph), "strata-graph", caption, broad=True)
 
 
-# -- equations and proofs ------------------------------------------------------------------------------
+# -- equations -----------------------------------------------------------------------------------------
 
 
 def _equations(classification: Classification) -> str:
@@ -379,39 +390,3 @@ def _matrix(matrix: PolynomialMatrix, columns: list[str]) -> str:
     if rows * width > LARGEST_MATRIX:
         return f"<p>A {rows}×{width} matrix, left out for its size.</p>"
     return f'<div class="formula" tabindex="0">{math.formula(math.matrix(matrix, columns))}</div>'
-
-
-def _proofs(classification: Classification) -> str:
-    return "".join(_proof(result) for result in classification.classes)
-
-
-def _proof(result: ClassResult) -> str:
-    number, verdict = result.singularity_class.number, result.verdict
-    back = f' <a href="#class-{number}">(the class)</a>' if verdict.is_yes else ""
-    lines = "".join(f"<li>{line}</li>" for line in _grounds(result))
-    answer = {"yes": "It exists", "no": "It is empty", "undecided": "Undecided"}[str(verdict.answer)]
-    certainty = f" ({described(verdict.certainty)})" if not verdict.is_undecided else ""
-    return (
-        f'<section id="proof-{number}"><h3>Class {number}: {escape(result.singularity_class.name)}{back}</h3>'
-        f"<p>{answer}{certainty}, step {escape(', '.join(result.steps) or '–')} of section 3.2.</p>"
-        f"<ul>{lines}</ul></section>"
-    )
-
-
-def _grounds(result: ClassResult) -> Iterator[str]:
-    """The reasons of a verdict, in sentences."""
-    if result.verdict.reason:
-        yield escape(result.verdict.reason)
-    seen: dict[str, int] = {}
-    for piece in (*result.pieces, *result.unsure):
-        size = "" if piece.extent.at_least < 0 else f", real dimension {piece.extent}"
-        points = f", {counted(piece.points, 'real point')}" if piece.points else ""
-        engine = f", by {piece.verdict.engine}" if piece.verdict.engine else ""
-        reason = f": {piece.verdict.reason}" if piece.verdict.reason else ""
-        line = (
-            f"a stratum of {len(piece.basis)} equations"
-            f"{size}{points}: {piece.verdict.answer} ({described(piece.verdict.certainty)}{engine}){reason}"
-        )
-        seen[line] = seen.get(line, 0) + 1
-    for line, times in seen.items():
-        yield escape(line if times == 1 else f"{times} times {line}")
