@@ -6,10 +6,11 @@ set in the line, where TeX breaks them after operators.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
+from singsym.output.conditions_latex import listed_latex
+from singsym.output.document import escaped
 from singsym.output.pieces import Group, extent_of, filled, grouped, loop_equations, moving, varying
 from singsym.polynomials.latex import polynomial_latex, symbol_latex
 
@@ -17,74 +18,14 @@ if TYPE_CHECKING:
     from singsym.classes.result import Classification, ClassResult, Configuration, Locus, SpacePiece
     from singsym.classes.solve import Solution
     from singsym.classes.taxonomy.types import Table
-    from singsym.conditions.conditions import Condition, Conditions
-    from singsym.conditions.factor import Factor
+    from singsym.conditions.conditions import Conditions
+    from singsym.conditions.named_lengths import NamedLengths
     from singsym.kinematics.velocity import Column, VelocityEquation
     from singsym.mechanism.model import Mechanism
     from singsym.polynomials import Polynomial, PolynomialMatrix
 
 WIDEST = 30
 """A matrix as wide as this many terms side by side fills the line; entries that do not fit get a name."""
-
-LONGEST, SHORT = 24, 8
-"""Terms of a polynomial that alone makes a condition, and of each where several vanish together."""
-
-_PREAMBLE = r"""\documentclass[a4paper,10pt]{article}
-\usepackage[T1]{fontenc}
-\usepackage[utf8]{inputenc}
-\usepackage{lmodern}
-\usepackage[margin=22mm]{geometry}
-\usepackage{amsmath,amssymb,array,booktabs,graphicx}
-\newsavebox{\fitbox}
-\newcommand{\fitted}[1]{\par\medskip\noindent\sbox{\fitbox}{#1}%
-  \ifdim\wd\fitbox>\linewidth\resizebox{\linewidth}{!}{\usebox{\fitbox}}\else\hfil\usebox{\fitbox}\fi\par\medskip}
-\relpenalty=50 \binoppenalty=100 \emergencystretch=3em
-\lineskiplimit=1pt \lineskip=2pt
-\setlength{\parindent}{0pt} \setlength{\parskip}{3pt plus 1pt}
-\raggedright
-\makeatletter\def\@listI{\leftmargin\leftmargini \topsep2pt \parsep0pt \itemsep3pt}
-\let\@listi\@listI \@beginparpenalty=10000 \makeatother
-\setlength{\tabcolsep}{5pt}
-"""
-
-_SPECIAL = str.maketrans(
-    {
-        "\\": r"\textbackslash{}",
-        "{": r"\{",
-        "}": r"\}",
-        "&": r"\&",
-        "%": r"\%",
-        "$": r"\$",
-        "#": r"\#",
-        "_": r"\_",
-        "~": r"\textasciitilde{}",
-        "^": r"\textasciicircum{}",
-        "<": r"\textless{}",
-        ">": r"\textgreater{}",
-    }
-)
-
-
-def escaped(text: str) -> str:
-    """Text from a file or a message as LaTeX text; what the fonts lack becomes a question mark.
-
-    >>> print(escaped("50 % of A_1 & B"))
-    50 \\% of A\\_1 \\& B
-    """
-    kept = "".join(c if c.isprintable() and ord(c) < 0x180 else "?" for c in " ".join(text.split()))
-    return kept.translate(_SPECIAL)
-
-
-def document(body: str, title: str) -> str:
-    """A whole document around the LaTeX of a result."""
-    head = f"{{\\LARGE\\bfseries {escaped(title)}\\par}}\\bigskip"
-    return f"{_PREAMBLE}\\begin{{document}}\n{head}\n\n{_without_fit(body)}\n\\end{{document}}"
-
-
-def _without_fit(body: str) -> str:
-    """The body with matrices scaled to the line, by a macro of the document's preamble."""
-    return re.sub(r"\\\[(\\begin\{array\}.*?\\end\{array\})\\\]", r"\\fitted{$\1$}", body, flags=re.DOTALL)
-
 
 # -- the mechanism -----------------------------------------------------------------------------------
 
@@ -177,15 +118,24 @@ def _longest_entry(matrix: PolynomialMatrix) -> int:
 # -- conditions --------------------------------------------------------------------------------------
 
 
-def conditions_latex(conditions: Conditions, mechanism: Mechanism | None = None) -> str:
-    """The loop equations, L, the reduction with its record, and (4), (5), (i)-(viii)."""
+def conditions_latex(
+    conditions: Conditions,
+    mechanism: Mechanism | None = None,
+    lengths: NamedLengths | None = None,
+    *,
+    expand: bool = False,
+) -> str:
+    """The loop equations, L, the reduction with its record, and (4), (5), (i)-(viii).
+
+    lengths: those that keep their names in the conditions; expand: all terms of polynomials in these.
+    """
     equation, reduction = conditions.equation, conditions.reduction
     parts = [_description(mechanism)] if mechanism is not None else []
     parts += [*_loops(equation), *_velocity(equation)]
     parts += [r"\section*{Reduction}", *reduction_latex(conditions)]
     if reduction.record:
         parts += matrix_latex("L", reduction.equation.L, reduction.equation.columns)
-    parts += [r"\section*{Conditions}", *(condition_latex(c) for c in conditions)]
+    parts += [r"\section*{Conditions}", listed_latex(conditions, lengths, expand=expand)]
     return "\n\n".join(parts)
 
 
@@ -204,36 +154,6 @@ def reduction_latex(conditions: Conditions) -> list[str]:
     if not items:
         return ["No passive velocity can be eliminated."]
     return ["\\begin{itemize}\n" + "\n".join(items) + "\n\\end{itemize}", last]
-
-
-def condition_latex(condition: Condition) -> str:
-    """One condition with its factors, each with its name and in words where it has them."""
-    head = rf"\textbf{{({condition.label})}}\enspace ${condition.latex_statement}$ \quad ({condition.types})"
-    if condition.everywhere:
-        return f"{head}, in every configuration."
-    if condition.alternatives is None:
-        return f"{head}."
-    if not condition.alternatives:
-        return f"{head}, in no configuration.{_units(condition)}"
-    lines = [_alternative(a) for a in condition.alternatives]
-    items = "\n".join(rf"\item[{'if' if place == 0 else 'or'}] {line}" for place, line in enumerate(lines))
-    return f"{head}\n\\begin{{itemize}}\n{items}\n\\end{{itemize}}{_units(condition)}"
-
-
-def _units(condition: Condition) -> str:
-    said = [f"${polynomial_latex(u.polynomial, 6)}$ ({escaped(u.reason)})" for u in condition.units]
-    return f"\nFactors without a feasible zero are left out: {'; '.join(said)}." if said else ""
-
-
-def _alternative(factors: Iterable[Factor]) -> str:
-    every = tuple(factors)
-    longest = LONGEST if len(every) == 1 else SHORT
-    return r" \emph{and} ".join(_factor(f, longest) for f in every)
-
-
-def _factor(factor: Factor, longest: int) -> str:
-    words = f", {escaped(factor.words)}" if factor.words else ""
-    return f"${factor.latex(longest)} = 0${words}"
 
 
 # -- classes -----------------------------------------------------------------------------------------

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from singsym.classes.solve import Solution
     from singsym.classes.taxonomy.types import Table
     from singsym.conditions.conditions import Condition, Conditions
+    from singsym.conditions.named_lengths import NamedLengths
     from singsym.kinematics.mobility import Mobility
     from singsym.kinematics.velocity import VelocityEquation
     from singsym.mechanism.model import Mechanism
@@ -64,8 +65,11 @@ def _entries(matrix: PolynomialMatrix) -> list[list[str]]:
     return [[str(e) for e in row] for row in matrix.rows]
 
 
-def conditions_data(name: str, conditions: Conditions) -> dict[str, Any]:
-    """The velocity equation, its reduction, and the conditions."""
+def conditions_data(name: str, conditions: Conditions, lengths: NamedLengths | None = None) -> dict[str, Any]:
+    """The velocity equation, its reduction, and the conditions; lengths: those that have names."""
+    from singsym.conditions.named_lengths import NamedLengths
+
+    written = lengths or NamedLengths()
     reduced = conditions.reduction.equation
     return {
         "mechanism": name,
@@ -77,12 +81,16 @@ def conditions_data(name: str, conditions: Conditions) -> dict[str, Any]:
             "rows": list(reduced.rows),
             "L": _entries(reduced.L),
         },
-        "conditions": [condition_data(c) for c in conditions],
+        "lengths": {name: str(value) for name, value in written.values.items()},
+        "conditions": [condition_data(c, written) for c in conditions],
     }
 
 
-def condition_data(condition: Condition) -> dict[str, Any]:
-    """A condition with its factors; alternatives null where it is left as a rank."""
+def condition_data(condition: Condition, lengths: NamedLengths | None = None) -> dict[str, Any]:
+    """A condition with its factors, null in names of lengths where they have no such form.
+
+    alternatives: null where it is left as a rank.
+    """
     alternatives = condition.alternatives
     return {
         "label": condition.label,
@@ -99,6 +107,7 @@ def condition_data(condition: Condition) -> dict[str, Any]:
                     "name": f.name.quantity.text if f.name else "",
                     "words": f.words,
                     "latex": f.latex(),
+                    "in_lengths": str(named) if lengths and (named := lengths.of(f.polynomial)) else None,
                 }
                 for f in alternative
             ]
