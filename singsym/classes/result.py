@@ -7,9 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from html import escape
 
 from singsym.classes.taxonomy.types import Defects, SingularityClass, SingularityType
+from singsym.conditions.named_lengths import NamedLengths, named_lengths, values_text
 from singsym.effort.verdict import Verdict
 from singsym.kinematics.reduction import Reduction
 from singsym.kinematics.velocity import VelocityEquation
@@ -219,6 +221,18 @@ class Classification:
         from singsym.classes.summary import summary
 
         return summary(self)
+
+    @cached_property
+    def lengths(self) -> NamedLengths:
+        """The factors of (4) and (5) in the names of the lengths that have values."""
+        if self.mechanism is None:
+            return NamedLengths()
+        return named_lengths(self.mechanism, self.equation, ("4", "5"))
+
+    @property
+    def lengths_note(self) -> str:
+        """The lengths whose names are in the loci, with their values; empty where there are none."""
+        return values_text(self.lengths.occurring_in(locus.factor for locus in self.loci))
 
     @property
     def parameters_note(self) -> str:

@@ -29,7 +29,7 @@ def run_conditions(chosen: argparse.Namespace) -> int:
     if is_redundant(mechanism):
         return _redundant_conditions(chosen, mechanism)
     found = conditions(placed(mechanism, chosen.formulation))
-    lengths = named_lengths(mechanism, found, chosen.formulation)
+    lengths = named_lengths(mechanism, found.equation)
     if chosen.format == "json":
         from singsym.output.plain_data import conditions_data
 

@@ -14,9 +14,9 @@ from fractions import Fraction
 import sympy
 from flint import fmpq
 
-from singsym.conditions.conditions import Condition, Conditions, conditions
+from singsym.conditions.conditions import conditions
 from singsym.conditions.factor import Factor
-from singsym.kinematics.velocity import velocity_equation
+from singsym.kinematics.velocity import VelocityEquation, velocity_equation
 from singsym.mechanism import Mechanism, MechanismError
 from singsym.polynomials import Polynomial, Ring
 
@@ -37,6 +37,11 @@ class NamedLengths:
         """A multiple of the polynomial in names, by a number; None where it has no such form."""
         return self.written.get(polynomial.primitive())
 
+    def shown(self, polynomial: Polynomial) -> Polynomial:
+        """The polynomial in names where a length is in it, else as it is."""
+        named = self.of(polynomial)
+        return polynomial if named is None or self.values.keys().isdisjoint(named.variables) else named
+
     def factor(self, factor: Factor) -> Factor:
         """The factor in names; the quantity stays with it where the factor is that, up to the sign."""
         named = self.of(factor.polynomial)
@@ -44,10 +49,9 @@ class NamedLengths:
             return factor
         return factor.written_as(named, self._ratio(named, factor.polynomial))
 
-    def occurring_in(self, some: Iterable[Condition]) -> dict[str, Fraction]:
-        """The values of those lengths whose names are in some conditions."""
-        factors = (f for condition in some for f in condition.all_factors)
-        names = {name for f in factors for name in self.factor(f).polynomial.variables}
+    def occurring_in(self, some: Iterable[Polynomial]) -> dict[str, Fraction]:
+        """The values of those lengths whose names are in some polynomials, as they are shown."""
+        names = {name for polynomial in some for name in self.shown(polynomial).variables}
         return {name: value for name, value in self.values.items() if name in names}
 
     def _ratio(self, named: Polynomial, polynomial: Polynomial) -> fmpq:
@@ -56,36 +60,40 @@ class NamedLengths:
         return image.terms()[0][1] / polynomial.terms()[0][1]
 
 
-def named_lengths(mechanism: Mechanism, found: Conditions, formulation: str = "auto") -> NamedLengths:
+def named_lengths(
+    mechanism: Mechanism, equation: VelocityEquation, labels: Iterable[str] = _WRITTEN_OUT
+) -> NamedLengths:
     """The factors of a mechanism's conditions in the names of its lengths that are rational.
+
+    equation: the mechanism's, with the values; labels: of the conditions whose factors are looked at.
 
     >>> from singsym.mechanism import load
     >>> puma = load("puma560")
-    >>> found = conditions(velocity_equation(puma))
-    >>> named_lengths(puma, found).of(found["5"].factors[1].polynomial)
+    >>> equation = velocity_equation(puma)
+    >>> named_lengths(puma, equation).of(conditions(equation)["5"].factors[1].polynomial)
     a3*s3 + d4*c3
     """
-    taken = found.equation.space.ring.names
+    space = equation.space
     values = {
         str(name): Fraction(int(value.p), int(value.q))
         for name, value in mechanism.values.items()
-        if isinstance(value, sympy.Rational) and str(name) not in taken
+        if isinstance(value, sympy.Rational) and str(name) not in space.ring.names
     }
     if not values:
         return NamedLengths()
     try:
-        equation = velocity_equation(mechanism.with_parameters(**dict.fromkeys(values)), formulation)
+        symbolic = velocity_equation(mechanism.with_parameters(**dict.fromkeys(values)), space.formulation)
     except (MechanismError, sympy.PolynomialError, ValueError):
         # a length that decides what the mechanism is, or that is in more than polynomials
         return NamedLengths()
-    own = equation.space.ring
+    own = symbolic.space.ring
     ring = own.with_names([*values, *(name for name in own.names if name not in values)], "lex")
-    in_names = conditions(equation, most_terms=FEW_TERMS)
+    in_names = conditions(symbolic, most_terms=FEW_TERMS)
     written: dict[Polynomial, Polynomial] = {}
-    for label in _WRITTEN_OUT:
+    for label in labels:
         for factor in in_names[label].all_factors:
             try:
-                image = _put_in(factor.polynomial, values, found.equation.space.ring)
+                image = _put_in(factor.polynomial, values, space.ring)
             except KeyError:
                 # other variables are chosen where lengths have no values
                 return NamedLengths()
@@ -102,6 +110,15 @@ def _put_in(named: Polynomial, values: Mapping[str, Fraction], ring: Ring) -> Po
     if missing := set(named.ring.constants).difference(ring.constants):
         raise KeyError(f"constants {missing} not in {ring!r}")
     return ring.convert(named.substitute({n: v for n, v in values.items() if named.degree(n) > 0}))
+
+
+def values_text(values: Mapping[str, Fraction]) -> str:
+    """Lengths by name, each with its value.
+
+    >>> values_text({"a3": Fraction(203, 10000), "l": Fraction(1, 3)})
+    'a3 = 0.0203, l = 1/3'
+    """
+    return ", ".join(f"{name} = {in_decimals(value)}" for name, value in values.items())
 
 
 def in_decimals(value: Fraction) -> str:

@@ -34,7 +34,7 @@ def listed_latex(
     found = cited(listed)
     longest = sys.maxsize if expand else LONGEST
     parts = [_entry(entry, found, written, longest) for entry in found.entries]
-    if values := written.occurring_in(listed):
+    if values := written.occurring_in(f.polynomial for c in listed for f in c.all_factors):
         said = ", ".join(f"${symbol_latex(name)} = {in_decimals(value)}$" for name, value in values.items())
         parts.append(f"Here {said}.")
     return "\n\n".join(parts)

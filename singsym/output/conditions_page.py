@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from singsym.conditions.named_lengths import NamedLengths, in_decimals
+from singsym.conditions.named_lengths import NamedLengths, values_text
 from singsym.output.citations import Citations, Entry, cited, is_short
 from singsym.output.page import Block, Page
 from singsym.output.text import matrix_page
@@ -64,8 +64,8 @@ def conditions_text(
     written = lengths or NamedLengths()
     found = cited(listed)
     lines = [line for entry in found.entries for line in _entry(entry, found, written, expand)]
-    if values := written.occurring_in(listed):
-        lines.append(f"with {', '.join(f'{name} = {in_decimals(x)}' for name, x in values.items())}")
+    if values := written.occurring_in(f.polynomial for c in listed for f in c.all_factors):
+        lines.append(f"with {values_text(values)}")
     if not expand and any(len(f.polynomial) > MOST for c in listed for f in c.all_factors):
         lines.append("Polynomials are cut: --expand prints all of their terms")
     return "\n".join(lines)

@@ -182,11 +182,11 @@ def classification_latex(result: Classification) -> str:
     from singsym.conditions.conditions import conditions
 
     found = conditions(result.equation, result.reduction)
-    parts = [conditions_latex(found, result.mechanism)]
+    parts = [conditions_latex(found, result.mechanism, result.lengths)]
     if result.configuration_space:
         parts += [r"\section*{Pieces of the configuration space}", _space(result.configuration_space)]
     if result.loci:
-        parts += [r"\section*{Singularity set}", _loci(result.loci)]
+        parts += [r"\section*{Singularity set}", _loci(result.loci, result.lengths)]
     parts += [r"\section*{Classes}", _itemized(result.summary), *_class_table(result)]
     if result.parameters_note:
         parts.append(f"Here {escaped(result.parameters_note)}.")
@@ -210,12 +210,13 @@ def _space(pieces: Sequence[SpacePiece]) -> str:
     return _table(("l", "l", wide), ("dimension", "smooth", "remark"), rows)
 
 
-def _loci(loci: Sequence[Locus]) -> str:
+def _loci(loci: Sequence[Locus], lengths: NamedLengths) -> str:
     from singsym.classes.result import counts
 
     headers = ("", "", "locus", "dimension", "points", "components")
     rows = [
-        (str(i), f"({x.condition})", _locus_name(x), str(x.extent), *counts(x)) for i, x in enumerate(loci, 1)
+        (str(i), f"({x.condition})", _locus_name(x, lengths), str(x.extent), *counts(x))
+        for i, x in enumerate(loci, 1)
     ]
     wide = r">{\raggedright\arraybackslash}p{.5\linewidth}"
     return _table(("r", "l", wide, "c", "c", "c"), headers, rows)
@@ -233,8 +234,8 @@ def _table(layout: Sequence[str], headers: Sequence[str], rows: Sequence[Sequenc
     )
 
 
-def _locus_name(locus: Locus) -> str:
-    shown = f"${polynomial_latex(locus.factor, 8)} = 0$"
+def _locus_name(locus: Locus, lengths: NamedLengths) -> str:
+    shown = f"${polynomial_latex(lengths.shown(locus.factor), 8)} = 0$"
     return escaped(locus.words) if locus.words else shown
 
 
@@ -267,10 +268,12 @@ def _class(result: ClassResult, whole: Classification) -> str:
     """A class that occurs: equations of its pieces, and one configuration."""
     head = f"\\subsection*{{Class {result.singularity_class.number}\\quad ({result.types})}}"
     items = []
-    for group in grouped(result.pieces, whole.loci):
+    for group in grouped(result.pieces, whole.loci, whole.lengths):
         counts = f", {group.points} points" if group.points is not None else ""
         items.append(rf"\item {_where(group)}: dimension {group.extent}{counts}")
-    items += [rf"\item perhaps also {_where(group)}" for group in grouped(result.unsure, whole.loci)]
+    items += [
+        rf"\item perhaps also {_where(group)}" for group in grouped(result.unsure, whole.loci, whole.lengths)
+    ]
     listed = "\\begin{itemize}\n" + "\n".join(items) + "\n\\end{itemize}"
     shown = [f"For instance {_configuration(w, whole.equation)}." for w in result.witnesses[:1]]
     return "\n".join([head, listed, *shown])

@@ -13,6 +13,7 @@ from singsym.polynomials import Equations
 
 if TYPE_CHECKING:
     from singsym.classes.result import ClassResult, Locus, Piece
+    from singsym.conditions.named_lengths import NamedLengths
     from singsym.kinematics.velocity import VelocityEquation
     from singsym.varieties.real.dimension.extent import Extent
 
@@ -27,8 +28,10 @@ class Group:
     points: int | None
 
 
-def grouped(pieces: Iterable[Piece], loci: Iterable[Locus]) -> tuple[Group, ...]:
-    """The pieces by their paths in order of appearance, points added up."""
+def grouped(
+    pieces: Iterable[Piece], loci: Iterable[Locus], lengths: NamedLengths | None = None
+) -> tuple[Group, ...]:
+    """The pieces by their paths in order of appearance, points added up; lengths: those that have names."""
     from singsym.varieties.real.dimension.extent import union
 
     words = {locus.factor: locus.words for locus in loci}
@@ -40,7 +43,12 @@ def grouped(pieces: Iterable[Piece], loci: Iterable[Locus]) -> tuple[Group, ...]
         counts = [piece.points for piece in own if piece.points is not None]
         points = sum(counts) if len(counts) == len(own) else None
         groups.append(
-            Group(path, tuple(words.get(p, "") for p in path), union(p.extent for p in own), points)
+            Group(
+                tuple(map(lengths.shown, path)) if lengths else path,
+                tuple(words.get(p, "") for p in path),
+                union(p.extent for p in own),
+                points,
+            )
         )
     return tuple(groups)
 

@@ -142,6 +142,7 @@ def classification_data(found: Classification) -> dict[str, Any]:
         "n": found.equation.n,
         "summary": list(found.summary),
         "parameters": list(found.equation.space.parameters),
+        "lengths": {name: str(value) for name, value in found.lengths.values.items()},
         "configuration_space": [
             {
                 **extent_data(piece.extent),
@@ -159,6 +160,7 @@ def classification_data(found: Classification) -> dict[str, Any]:
                 "condition": locus.condition,
                 "factor": str(locus.factor),
                 "latex": locus.latex,
+                "in_lengths": str(named) if (named := found.lengths.of(locus.factor)) else None,
                 "words": locus.words,
                 **extent_data(locus.extent),
                 "components": locus.components,

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from singsym.classes.result import Classification, ClassResult, Configuration, Locus, SpacePiece
     from singsym.classes.solve import Solution
     from singsym.classes.taxonomy.types import SingularityType, Table
+    from singsym.conditions.named_lengths import NamedLengths
     from singsym.elimination.engines.registry import EngineStatus
     from singsym.kinematics.mobility import Mobility
     from singsym.kinematics.velocity import VelocityEquation
@@ -156,10 +157,10 @@ def classification_page(result: Classification) -> Page:
     name = result.mechanism.name if result.mechanism is not None else "given equations"
     equation, shown = result.equation, shown_classes(result)
     sizes = f"{name}: N = {equation.N}, n = {equation.n}"
-    head = f"{sizes}; {result.parameters_note}" if result.parameters_note else sizes
+    head = "; ".join(filter(None, (sizes, result.parameters_note, result.lengths_note)))
     pieces = result.configuration_space
     space = tuple(_space_row(i if len(pieces) > 1 else 0, piece) for i, piece in enumerate(pieces, 1))
-    loci = tuple(_locus_row(i, locus) for i, locus in enumerate(result.loci, 1))
+    loci = tuple(_locus_row(i, locus, result.lengths) for i, locus in enumerate(result.loci, 1))
     blocks: list[Block] = ["\n".join(result.summary), head]
     if shown:
         title = (
@@ -199,10 +200,10 @@ def _space_row(number: int, piece: SpacePiece) -> tuple[str, ...]:
     return (str(number or ""), str(piece.extent), piece.smooth, piece.remark)
 
 
-def _locus_row(number: int, locus: Locus) -> tuple[str, ...]:
+def _locus_row(number: int, locus: Locus, lengths: NamedLengths) -> tuple[str, ...]:
     from singsym.classes.result import counts
 
-    shown = locus.words or locus.factor.short_text(6)
+    shown = locus.words or lengths.shown(locus.factor).short_text(6)
     points, components = counts(locus)
     return (str(number), f"({locus.condition})", shown, str(locus.extent), components, points)
 
@@ -226,10 +227,12 @@ def _class_row(result: ClassResult, whole: Classification) -> tuple[str, ...]:
 def _class_text(result: ClassResult, whole: Classification) -> str:
     """A class that occurs: its pieces by what vanishes on the way, and one configuration."""
     lines = [f"{result.singularity_class.number} ({result.types})"]
-    for group in grouped(result.pieces, whole.loci):
+    for group in grouped(result.pieces, whole.loci, whole.lengths):
         count = f", {group.points} points" if group.points is not None else ""
         lines.append(f"  dimension {group.extent}{count}: {_where(group)}")
-    lines += [f"  perhaps also: {_where(group)}" for group in grouped(result.unsure, whole.loci)]
+    lines += [
+        f"  perhaps also: {_where(group)}" for group in grouped(result.unsure, whole.loci, whole.lengths)
+    ]
     lines += [f"  for instance {configuration_text(w, whole.equation)}" for w in result.witnesses[:1]]
     return "\n".join(lines)
 

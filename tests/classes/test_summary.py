@@ -18,6 +18,9 @@ from singsym.classes.taxonomy.types import SingularityType as T
 from singsym.classes.taxonomy.types import feasible_classes
 from singsym.effort.verdict import Verdict
 from singsym.mechanism import load
+from singsym.output.page import plain
+from singsym.output.plain_data import classification_data
+from singsym.output.text import classification_page
 from singsym.varieties.real.dimension.extent import UNKNOWN, Extent
 
 LATE = "the clock stood still"
@@ -140,6 +143,18 @@ def test_what_is_open_is_shown_after_what_occurs() -> None:
     """Class 2 before class 4 by its number, after it as it is open."""
     found = with_classes(c2=OPEN, c4={"verdict": Verdict.yes(), "extent": Extent(0, 0), "points": 8})
     assert [c.singularity_class.number for c in shown_classes(found)] == [1, 4, 2]
+
+
+def test_loci_are_in_names_of_lengths_with_their_values_beside() -> None:
+    """A slotted lever stands still where the crank is at right angles to it: g s = d, g = 2 in the file."""
+    result = classify(load("crank-slotted-lever"), cache=False)
+    assert result.lengths_note == "g = 2"
+    page = plain(classification_page(result))
+    assert "g*s_block - d_P" in page
+    assert "; g = 2" in page
+    assert "2*s_block" not in page
+    found = {locus["factor"]: locus["in_lengths"] for locus in classification_data(result)["loci"]}
+    assert found["d_P - 2*s_block"] == "g*s_block - d_P"
 
 
 def test_points_of_a_double_cover_are_not_called_configurations() -> None:

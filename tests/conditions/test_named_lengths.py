@@ -19,7 +19,7 @@ def written(name: str) -> list[str]:
     """The factors of (5), as they are printed."""
     mechanism = load(name)
     found = conditions(velocity_equation(mechanism))
-    lengths = named_lengths(mechanism, found)
+    lengths = named_lengths(mechanism, found.equation)
     return [lengths.factor(f).text() for f in found["5"].factors]
 
 
@@ -46,7 +46,7 @@ def test_with_the_values_put_in_it_is_a_multiple_of_the_polynomial_in_numbers(na
     """By SymPy, from text: what is printed in names, and the values beside it, make the same equation."""
     mechanism = load(name)
     found = conditions(velocity_equation(mechanism))
-    lengths = named_lengths(mechanism, found)
+    lengths = named_lengths(mechanism, found.equation)
     factors = [f for label in ("4", "5") for f in found[label].all_factors]
     assert factors
     for factor in factors:
@@ -70,7 +70,7 @@ def arm(**values: str) -> list[str]:
         joints={"A": "R", "B": "R"},
     )
     found = conditions(velocity_equation(mechanism))
-    lengths = named_lengths(mechanism, found)
+    lengths = named_lengths(mechanism, found.equation)
     assert set(lengths.values) <= {"a", "b"}
     return [lengths.factor(f).text() for f in found["5"].factors]
 
@@ -83,7 +83,7 @@ def test_lengths_that_are_no_rationals_keep_their_values() -> None:
 def test_without_named_lengths_nothing_is_renamed() -> None:
     mechanism = load("zlatanov-2dof")
     found = conditions(velocity_equation(mechanism))
-    lengths = named_lengths(mechanism, found)
+    lengths = named_lengths(mechanism, found.equation)
     assert lengths.values == {}
     assert all(lengths.factor(f) is f for f in found["5"].factors)
 
@@ -91,5 +91,7 @@ def test_without_named_lengths_nothing_is_renamed() -> None:
 def test_values_are_those_of_the_file() -> None:
     mechanism = load("puma560")
     found = conditions(velocity_equation(mechanism))
-    occurring = named_lengths(mechanism, found).occurring_in(found)
+    occurring = named_lengths(mechanism, found.equation).occurring_in(
+        f.polynomial for f in found["5"].factors
+    )
     assert occurring == {"a2": Fraction("0.4318"), "a3": Fraction("0.0203"), "d4": Fraction("0.4318")}

@@ -79,6 +79,8 @@ def _head(classification: Classification) -> str:
     facts = [f"N = {equation.N} joints of one degree of freedom, mobility n = {equation.n}"]
     if classification.parameters_note:
         facts.append(classification.parameters_note)
+    if classification.lengths_note:
+        facts.append(classification.lengths_note)
     if mechanism is None:
         return f"{_glance(classification)}<p>{'; '.join(facts)}.</p>"
     outputs = [
@@ -146,7 +148,7 @@ def _locus_name(classification: Classification, index: int) -> str:
     head, named, _ = locus.latex.partition(" = ")
     if named and locus.words:
         return math.formula(math.name(head))
-    return math.terms(locus.factor, longest=SHORT)
+    return math.terms(classification.lengths.shown(locus.factor), longest=SHORT)
 
 
 def _class_table(classification: Classification) -> str:
@@ -259,7 +261,7 @@ def _vanishing(classification: Classification, piece: Piece) -> str:
         if p in place:
             i = place[p]
             words = classification.loci[i].words
-            shown = escape(words) if words else math.terms(p, "=", SHORT)
+            shown = escape(words) if words else math.terms(classification.lengths.shown(p), "=", SHORT)
             lines.append(f'<a href="#locus-{i}">{shown}</a>')
         else:
             lines.append(math.terms(p, "=", 12))
@@ -273,7 +275,9 @@ def _unequal(classification: Classification, piece: Piece) -> str:
     said = []
     for f in dict.fromkeys(factors):
         words = classification.loci[place[f]].words if f in place else ""
-        said.append(f"not {escape(words)}" if words else math.terms(f, "≠", SHORT))
+        said.append(
+            f"not {escape(words)}" if words else math.terms(classification.lengths.shown(f), "≠", SHORT)
+        )
     groups = sum(len(e) > 1 for e in piece.exclusions)
     if groups:
         said.append(f"{groups} group{'' if groups == 1 else 's'} of polynomials not all zero")
@@ -371,7 +375,7 @@ def _equations(classification: Classification) -> str:
         where = ", ".join(f'<a href="#class-{n}">class {n}</a>' for n in used)
         parts.append(
             f'<div id="locus-{i}"><p>({escape(locus.condition)}){words}{" — " + where if where else ""}</p>'
-            f"{_line(lead + math.equation(locus.factor))}</div>"
+            f"{_line(lead + math.equation(classification.lengths.shown(locus.factor)))}</div>"
         )
     return "".join(parts)
 
