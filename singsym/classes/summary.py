@@ -141,9 +141,11 @@ def _size(there: Sequence[ClassResult], is_open: bool, result: Classification) -
 
 def _configurations(number: int, result: Classification) -> str:
     """A number of points of the configuration space; of its double cover, where turns are quaternions."""
-    double = result.equation.space.formulation == "quaternion"
+    space = result.equation.space
+    double = space.formulation == "quaternion"
     noun = "point" if double else "configuration"
-    return f"{number} {noun}{'' if number == 1 else 's'}{' of the double cover' if double else ''}"
+    named = f", each at one value of {', '.join(space.parameters)}" if space.parameters else ""
+    return f"{number} {noun}{'' if number == 1 else 's'}{' of the double cover' if double else ''}{named}"
 
 
 def _classes(result: Classification) -> str:

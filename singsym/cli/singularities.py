@@ -131,6 +131,7 @@ def run_solve(chosen: argparse.Namespace) -> int:
     """`singsym solve MECHANISM CONDITION ...`."""
     from singsym.classes.solve import solve
     from singsym.cli.screen import progress_shown
+    from singsym.conditions.named_lengths import named_lengths
     from singsym.elimination import engines
 
     mechanism = read(chosen)
@@ -145,20 +146,21 @@ def run_solve(chosen: argparse.Namespace) -> int:
             limits=_limits(chosen),
             cache=chosen.cache,
         )
+    lengths = named_lengths(mechanism, found[0].equation)
     if chosen.format == "json":
         from singsym.output.plain_data import solution_data
 
-        emit_data(solution_data(mechanism.name, found))
+        emit_data(solution_data(mechanism.name, found, lengths))
     elif chosen.format == "latex":
         from singsym.output.document import document
         from singsym.output.latex import solution_latex
 
-        body = solution_latex(found)
+        body = solution_latex(found, lengths)
         print(document(body, mechanism.title or mechanism.name) if chosen.standalone else body)
     else:
         from singsym.output.text import solution_page
 
-        emit_page(solution_page(mechanism.name, found))
+        emit_page(solution_page(mechanism.name, found, lengths))
     return UNDECIDED if any(s.undecided for s in found) else 0
 
 

@@ -6,7 +6,8 @@ Source: (4), (5) and (i)-(viii) of Zlatanov, Fenton, Benhabib (1998).
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from singsym.conditions.named_lengths import NamedLengths, in_decimals
@@ -35,9 +36,14 @@ def listed_latex(
     longest = sys.maxsize if expand else LONGEST
     parts = [_entry(entry, found, written, longest) for entry in found.entries]
     if values := written.occurring_in(f.polynomial for c in listed for f in c.all_factors):
-        said = ", ".join(f"${symbol_latex(name)} = {in_decimals(value)}$" for name, value in values.items())
-        parts.append(f"Here {said}.")
+        parts.append(values_latex(values))
     return "\n\n".join(parts)
+
+
+def values_latex(values: Mapping[str, Fraction]) -> str:
+    """Lengths by name, each with its value, as a sentence."""
+    said = (f"${symbol_latex(name)} = {in_decimals(value)}$" for name, value in values.items())
+    return f"Here {', '.join(said)}."
 
 
 def _entry(entry: Entry, found: Citations, written: NamedLengths, longest: int) -> str:

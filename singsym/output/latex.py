@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
-from singsym.output.conditions_latex import listed_latex
+from singsym.conditions.named_lengths import NamedLengths
+from singsym.output.conditions_latex import listed_latex, values_latex
 from singsym.output.document import escaped
 from singsym.output.pieces import Group, extent_of, filled, grouped, loop_equations, moving, varying
 from singsym.polynomials.latex import polynomial_latex, symbol_latex
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     from singsym.classes.solve import Solution
     from singsym.classes.taxonomy.types import Table
     from singsym.conditions.conditions import Conditions
-    from singsym.conditions.named_lengths import NamedLengths
     from singsym.kinematics.velocity import Column, VelocityEquation
     from singsym.mechanism.model import Mechanism
     from singsym.polynomials import Polynomial, PolynomialMatrix
@@ -313,9 +313,14 @@ def _point(name: str) -> str:
     return symbol_latex(name) if len(name) > 1 else name
 
 
-def solution_latex(solutions: Iterable[Solution]) -> str:
-    """The solution sets of conditions: equations, dimensions, counts and a configuration of each piece."""
-    parts = []
+def solution_latex(solutions: Sequence[Solution], lengths: NamedLengths | None = None) -> str:
+    """The solution sets of conditions: equations, dimensions, counts and a configuration of each piece.
+
+    lengths: those that have names.
+    """
+    written = lengths or NamedLengths()
+    values = written.occurring_in(p for s in solutions for piece in s.pieces for p in piece.path)
+    parts = [values_latex(values)] if values else []
     for solution in solutions:
         head = rf"\section*{{Condition ({solution.condition.label})}}"
         parts += [head, f"${solution.condition.latex_statement}$ ({solution.condition.types})."]
@@ -323,7 +328,7 @@ def solution_latex(solutions: Iterable[Solution]) -> str:
         for piece in solution.pieces:
             counts = f", {piece.points} points" if piece.points is not None else ""
             shown = [f" For instance {_configuration(w, solution.equation)}." for w in piece.witnesses[:1]]
-            where = _equations(piece.path)
+            where = _equations([written.shown(p) for p in piece.path])
             items.append(rf"\item ${where}$, dimension {piece.extent}{counts}." + "".join(shown))
         if items:
             parts.append("\\begin{itemize}\n" + "\n".join(items) + "\n\\end{itemize}")

@@ -227,10 +227,16 @@ def mobility_data(name: str, equation: VelocityEquation, found: Mobility) -> dic
     }
 
 
-def solution_data(name: str, solutions: Iterable[Solution]) -> dict[str, Any]:
-    """The solution sets of conditions."""
+def solution_data(
+    name: str, solutions: Iterable[Solution], lengths: NamedLengths | None = None
+) -> dict[str, Any]:
+    """The solution sets of conditions; lengths: those that have names."""
+    from singsym.conditions.named_lengths import NamedLengths
+
+    written = lengths or NamedLengths()
     return {
         "mechanism": name,
+        "lengths": {name: str(value) for name, value in written.values.items()},
         "solutions": [
             {
                 "condition": s.condition.label,
@@ -240,6 +246,7 @@ def solution_data(name: str, solutions: Iterable[Solution]) -> dict[str, Any]:
                 "pieces": [
                     {
                         "equations": [str(p) for p in piece.path],
+                        "in_lengths": [str(written.shown(p)) for p in piece.path],
                         "basis": [str(p) for p in piece.basis],
                         "exclusions": [[str(p) for p in group] for group in piece.exclusions],
                         "verdict": str(piece.verdict.answer),

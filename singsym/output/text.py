@@ -292,16 +292,20 @@ def number_text(value: str | float, digits: int) -> str:
     return "0" if abs(number) < 1e-14 else f"{number:.{digits}g}"
 
 
-def solution_page(name: str, solutions: Iterable[Solution]) -> Page:
-    """The solution sets of conditions, piece by piece."""
-    blocks: list[Block] = [name]
+def solution_page(name: str, solutions: Sequence[Solution], lengths: NamedLengths | None = None) -> Page:
+    """The solution sets of conditions, piece by piece; lengths: those that have names."""
+    from singsym.conditions.named_lengths import NamedLengths, values_text
+
+    written = lengths or NamedLengths()
+    values = written.occurring_in(p for s in solutions for piece in s.pieces for p in piece.path)
+    blocks: list[Block] = [f"{name}: {values_text(values)}" if values else name]
     for solution in solutions:
         condition = solution.condition
         head = f"({condition.label}) {condition.statement}: {condition.types}"
         rows = tuple(
             (
                 str(number),
-                ", ".join(f"{p.short_text(6)} = 0" for p in piece.path) or "everywhere",
+                ", ".join(f"{written.shown(p).short_text(6)} = 0" for p in piece.path) or "everywhere",
                 str(piece.extent),
                 _count(piece.points) if piece.is_counted else "?",
                 "?" if piece.verdict.is_undecided else described(piece.verdict.certainty),

@@ -145,6 +145,16 @@ def test_what_is_open_is_shown_after_what_occurs() -> None:
     assert [c.singularity_class.number for c in shown_classes(found)] == [1, 4, 2]
 
 
+def test_numbers_that_count_a_free_length_say_so() -> None:
+    """A slider-crank with a rod of any length l: of l = r the slider can stay on the crank's centre.
+
+    There d = 0 and d = 2 r cos(angle) cross, at the angles of 90 and -90 degrees: two points.
+    """
+    result = classify(load("slider-crank").with_parameters(l=None), cache=False)
+    assert answer(result, T.IIM) == "2 configurations, each at one value of l (proven)"
+    assert answer(result, T.IO) == "a set (dimension 1 of 2, which counts l; proven)"
+
+
 def test_loci_are_in_names_of_lengths_with_their_values_beside() -> None:
     """A slotted lever stands still where the crank is at right angles to it: g s = d, g = 2 in the file."""
     result = classify(load("crank-slotted-lever"), cache=False)
