@@ -68,12 +68,16 @@ def test_conditions_in_names_of_lengths_and_expanded(capsys):
     found = data(capsys, "conditions", "puma560")
     assert found["lengths"]["a3"] == "203/10000"
     assert found["conditions"][1]["alternatives"][1][0]["in_lengths"] == "a3*s3 + d4*c3"
-    piece = data(capsys, "solve", "puma560", "5", "--workers", "1")["solutions"][0]["pieces"][2]
-    assert (piece["equations"], piece["in_lengths"]) == (["4318*c3 + 203*s3"], ["a3*s3 + d4*c3"])
-    assert main(["solve", "puma560", "5", "--workers", "1"]) == 0
-    assert "a3*s3 + d4*c3 = 0" in capsys.readouterr().out
     assert main(["conditions", "puma560", "--expand"]) == 0
     assert "L, 6x12" in capsys.readouterr().out
+
+
+def test_solution_sets_in_names_of_lengths(capsys):
+    """A slotted lever, pivoted g = 2 from the crank, stands still where d = g s."""
+    pieces = data(capsys, "solve", "crank-slotted-lever", "5", "--workers", "1")["solutions"][0]["pieces"]
+    assert {(*p["equations"], *p["in_lengths"]) for p in pieces} == {("d_P - 2*s_block", "g*s_block - d_P")}
+    assert main(["solve", "crank-slotted-lever", "5", "--workers", "1"]) == 0
+    assert "g*s_block - d_P = 0" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(("n", "count"), [(1, 9), (2, 19), (3, 21), (6, 21)])
