@@ -7,9 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from html import escape
 
 from singsym.classes.taxonomy.types import Defects, SingularityClass, SingularityType
+from singsym.conditions.named_lengths import NamedLengths, named_lengths, values_text
 from singsym.effort.verdict import Verdict
 from singsym.kinematics.reduction import Reduction
 from singsym.kinematics.velocity import VelocityEquation
@@ -215,6 +217,25 @@ class Classification:
             yield f"class {found.singularity_class.number}", found
 
     @property
+    def summary(self) -> tuple[str, ...]:
+        """Where the mechanism locks and goes slack, and what is known of the classes, in a few lines."""
+        from singsym.classes.summary import summary
+
+        return summary(self)
+
+    @cached_property
+    def lengths(self) -> NamedLengths:
+        """The factors of (4) and (5) in the names of the lengths that have values."""
+        if self.mechanism is None:
+            return NamedLengths()
+        return named_lengths(self.mechanism, self.equation, ("4", "5"))
+
+    @property
+    def lengths_note(self) -> str:
+        """The lengths whose names are in the loci, with their values; empty where there are none."""
+        return values_text(self.lengths.occurring_in(locus.factor for locus in self.loci))
+
+    @property
     def parameters_note(self) -> str:
         """Which parameters have no value and count as dimensions, and which mountings; empty without any."""
         space = self.equation.space
@@ -229,14 +250,18 @@ class Classification:
         raise KeyError(f"{types!r} is not one of the {len(self.classes)} classes")
 
     def _repr_html_(self) -> str:
+        from singsym.classes.summary import empty_text, shown_classes
+
         headers = ("class", "types", "there?", "dimension", "points", "components", "step")
         rows = [
             (c.singularity_class.number, c.singularity_class.name, c.verdict.answer, *_sizes(c), *c.steps)
-            for c in self.classes
+            for c in shown_classes(self)
         ]
         questions = gathered(self.open_questions())
-        open_ones = _html_table(("open", "why"), questions) if questions else ""
-        return _html_table(headers, rows) + open_ones + "".join(f"<p>{escape(n)}</p>" for n in self.notes())
+        parts = ["<br>".join(map(escape, self.summary)), _html_table(headers, rows) if rows else ""]
+        parts += [escape(empty_text(self)), _html_table(("open", "why"), questions) if questions else ""]
+        parts += map(escape, self.notes())
+        return "".join(p if p.startswith("<table") else f"<p>{p}</p>" for p in parts if p)
 
 
 def _open(what: str, found: Locus | ClassResult) -> Iterator[tuple[str, str]]:

@@ -129,7 +129,8 @@ def run_show(chosen: argparse.Namespace) -> int:
             found |= {"robot": robot_data(robot)}
         emit_data(found)
     elif chosen.format == "latex":
-        from singsym.output.latex import document, mechanism_latex
+        from singsym.output.document import document
+        from singsym.output.latex import mechanism_latex
 
         body = mechanism_latex(mechanism, equation)
         print(document(body, mechanism.title or mechanism.name) if chosen.standalone else body)

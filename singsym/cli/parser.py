@@ -80,7 +80,7 @@ def parser() -> argparse.ArgumentParser:
     add("check", "mechanisms", "what is wrong with a mechanism, if anything", _mechanism, short)
     whole = (_mechanism, _work, printed, _standalone)
     words = "conditions (4), (5), (i)-(viii), factored"
-    add("conditions", "singularities", words, _mechanism, printed, _standalone)
+    add("conditions", "singularities", words, _mechanism, printed, _standalone, _expand)
     add("classify", "singularities", "the singularity set and its classes", *whole)
     add("solve", "singularities", "the solution sets of some conditions", *whole, _labels)
     words = "ranks, types and null motions of one configuration"
@@ -196,6 +196,12 @@ def _formats(*names: str) -> Callable[[argparse.ArgumentParser], None]:
         command.add_argument("--format", default="text", choices=names, help="of the output (default: text)")
 
     return part
+
+
+def _expand(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--expand", action="store_true", help="L before and after the reduction, all terms of polynomials"
+    )
 
 
 def _standalone(command: argparse.ArgumentParser) -> None:

@@ -9,6 +9,7 @@ import json
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -45,7 +46,7 @@ def emit_page(page: Page) -> None:
     console = Console(highlight=False)
     for block in page:
         if isinstance(block, str):
-            console.print(Text(block))
+            console.print(Text(_wrapped(block, console.width)))
         else:
             table = Table(title=block.title or None, title_justify="left", box=box.SIMPLE_HEAD)
             table.show_edge = table.pad_edge = False
@@ -57,6 +58,21 @@ def emit_page(page: Page) -> None:
                 table.add_row(*(Text(cell) for cell in row))
             console.print(table)
         console.print()
+
+
+def _wrapped(block: str, width: int) -> str:
+    """Lines of a text broken between words, the rest of a line indented under it.
+
+    >>> print(_wrapped("  one two three", 10))
+      one two
+          three
+    """
+    lines = []
+    for line in block.splitlines():
+        indent = " " * (len(line) - len(line.lstrip()) + 4)
+        broken = wrap(line, width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
+        lines += broken or [""]
+    return "\n".join(lines)
 
 
 @contextmanager

@@ -28,24 +28,27 @@ UNDECIDED = 3
 def run_conditions(chosen: argparse.Namespace) -> int:
     """`singsym conditions MECHANISM`."""
     from singsym.conditions.conditions import conditions
+    from singsym.conditions.named_lengths import named_lengths
 
     mechanism = read(chosen, redundant=True)
     if is_redundant(mechanism):
         return _redundant_conditions(chosen, mechanism)
     found = conditions(placed(mechanism, chosen.formulation))
+    lengths = named_lengths(mechanism, found.equation)
     if chosen.format == "json":
         from singsym.output.plain_data import conditions_data
 
-        emit_data(conditions_data(mechanism.name, found))
+        emit_data(conditions_data(mechanism.name, found, lengths))
     elif chosen.format == "latex":
-        from singsym.output.latex import conditions_latex, document
+        from singsym.output.document import document
+        from singsym.output.latex import conditions_latex
 
-        body = conditions_latex(found, mechanism)
+        body = conditions_latex(found, mechanism, lengths, expand=chosen.expand)
         print(document(body, mechanism.title or mechanism.name) if chosen.standalone else body)
     else:
-        from singsym.output.text import conditions_page
+        from singsym.output.conditions_page import conditions_page
 
-        emit_page((mechanism.name, *conditions_page(found)))
+        emit_page((mechanism.name, *conditions_page(found, lengths, expand=chosen.expand)))
     return 0
 
 
@@ -58,12 +61,12 @@ def _redundant_conditions(chosen: argparse.Namespace, mechanism: Mechanism) -> i
     if chosen.format == "json":
         emit_data(redundant_page.redundant_data(mechanism.name, found))
     elif chosen.format == "latex":
-        from singsym.output.latex import document
+        from singsym.output.document import document
 
-        body = redundant_page.redundant_latex(mechanism, found)
+        body = redundant_page.redundant_latex(mechanism, found, expand=chosen.expand)
         print(document(body, mechanism.title or mechanism.name) if chosen.standalone else body)
     else:
-        emit_page((mechanism.name, *redundant_page.redundant_page(found)))
+        emit_page((mechanism.name, *redundant_page.redundant_page(found, expand=chosen.expand)))
     return 0
 
 
@@ -77,7 +80,8 @@ def run_classes(chosen: argparse.Namespace) -> int:
 
         emit_data(classes_data(found, chosen.n))
     elif chosen.format == "latex":
-        from singsym.output.latex import classes_latex, document
+        from singsym.output.document import document
+        from singsym.output.latex import classes_latex
 
         body = classes_latex(found, chosen.n)
         print(document(body, "Classes of singular configurations") if chosen.standalone else body)
@@ -127,7 +131,8 @@ def _emit_classification(result: Classification, chosen: argparse.Namespace) -> 
 
         emit_data(classification_data(result))
     elif chosen.format == "latex":
-        from singsym.output.latex import classification_latex, document
+        from singsym.output.document import document
+        from singsym.output.latex import classification_latex
 
         body = classification_latex(result)
         title = result.mechanism.title or result.mechanism.name if result.mechanism else "Given equations"
@@ -167,19 +172,25 @@ def run_solve(chosen: argparse.Namespace) -> int:
 
 
 def _emit_solutions(mechanism: Mechanism, found: Sequence[Solution], chosen: argparse.Namespace) -> None:
+    from singsym.conditions.named_lengths import named_lengths
+
+    if not found:
+        return
+    lengths = named_lengths(mechanism, found[0].equation)
     if chosen.format == "json":
         from singsym.output.plain_data import solution_data
 
-        emit_data(solution_data(mechanism.name, found))
+        emit_data(solution_data(mechanism.name, found, lengths))
     elif chosen.format == "latex":
-        from singsym.output.latex import document, solution_latex
+        from singsym.output.document import document
+        from singsym.output.latex import solution_latex
 
-        body = solution_latex(found)
+        body = solution_latex(found, lengths)
         print(document(body, mechanism.title or mechanism.name) if chosen.standalone else body)
     else:
         from singsym.output.text import solution_page
 
-        emit_page(solution_page(mechanism.name, found))
+        emit_page(solution_page(mechanism.name, found, lengths))
 
 
 @contextmanager

@@ -86,6 +86,11 @@ class Condition:
         return tuple(a[0] for a in self.alternatives or () if len(a) == 1)
 
     @property
+    def all_factors(self) -> tuple[Factor, ...]:
+        """The factors of all alternatives, in their order."""
+        return tuple(f for alternative in self.alternatives or () for f in alternative)
+
+    @property
     def polynomials(self) -> tuple[tuple[Polynomial, ...], ...]:
         """The alternatives as bare polynomials."""
         return tuple(tuple(f.polynomial for f in a) for a in self.alternatives or ())
@@ -134,10 +139,12 @@ class Conditions:
     """The conditions of a mechanism, each worked out when it is first asked for.
 
     equation: the velocity equation as it is; reduction: the same after section 4.2.
+    most_terms: determinants with more terms on the way are left as determinants.
     """
 
     equation: VelocityEquation
     reduction: Reduction
+    most_terms: int = MOST_TERMS
 
     def __getitem__(self, label: str) -> Condition:
         """A condition by its label; raises `KeyError` naming the labels."""
@@ -243,7 +250,7 @@ class Conditions:
             if choices and (not choices[0].factors or _largest_block(matrix) > LARGEST_DETERMINANT):
                 break
             try:
-                choices.append(determinant_factors(matrix, self.certifier, MOST_TERMS))
+                choices.append(determinant_factors(matrix, self.certifier, self.most_terms))
             except TooManyTerms:
                 continue
         return min(choices, key=lambda choice: (not choice.vanishes, choice.size), default=None)
@@ -286,10 +293,12 @@ def _largest_block(matrix: PolynomialMatrix) -> int:
     return max((len(rows) for rows, _ in block_triangular(matrix).square), default=0)
 
 
-def conditions(equation: VelocityEquation, reduction: Reduction | None = None) -> Conditions:
+def conditions(
+    equation: VelocityEquation, reduction: Reduction | None = None, most_terms: int = MOST_TERMS
+) -> Conditions:
     """The conditions of a velocity equation; each is worked out when it is asked for.
 
-    reduction: that of section 4.2, where it is at hand.
+    reduction: that of section 4.2, where it is at hand; most_terms: of determinants, on the way.
 
     >>> from singsym.kinematics.velocity import velocity_equation
     >>> from singsym.mechanism import load
@@ -297,4 +306,4 @@ def conditions(equation: VelocityEquation, reduction: Reduction | None = None) -
     (vii) L_I is singular: RO or RPM, II or IIM
       det[S_B S_C S_D] = -By*Cx + Bx*Cy + 4*By - 4*Cy  (B, C, D collinear)
     """
-    return Conditions(equation, reduction or reduce(equation))
+    return Conditions(equation, reduction or reduce(equation), most_terms)

@@ -8,6 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
+from flint import fmpq
+
 from singsym.conditions.named_quantities import GeometricName
 from singsym.polynomials import Polynomial
 from singsym.polynomials.latex import polynomial_latex
@@ -18,16 +20,45 @@ SHORT = 6
 
 @dataclass(frozen=True)
 class Factor:
-    """A polynomial whose vanishing is one way to satisfy a condition, with its name if it has one."""
+    """A polynomial whose vanishing is one way to satisfy a condition, with its name if it has one.
+
+    said: what its vanishing says of the named points, where it has no name.
+    """
 
     polynomial: Polynomial
     multiplicity: int = 1
     name: GeometricName | None = None
+    said: str = ""
 
     @property
     def words(self) -> str:
         """What its vanishing says of the named points; empty where it was not recognised."""
-        return self.name.quantity.words if self.name else ""
+        return self.name.quantity.words if self.name else self.said
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether it has no name, or is up to its sign the quantity that it is called."""
+        if self.name is None:
+            return True
+        scale = self.name.scale
+        return self.name.radicand == 1 and scale.is_constant and abs(scale.constant) == 1
+
+    def written_as(self, other: Polynomial, ratio: fmpq) -> Factor:
+        """The same with another polynomial, `ratio` times this one; the name stays with it up to the sign.
+
+        >>> from singsym.conditions.named_quantities import Quantity
+        >>> from singsym.polynomials import Ring
+        >>> x, g = Ring(("x", "g")).gens
+        >>> name = GeometricName(Quantity("q", "q", "A, B, C collinear"), x.ring.one)
+        >>> one = Factor(x + 4, name=name)
+        >>> print(one, one.written_as(-x - g, fmpq(-1)), one.written_as(2 * x + g, fmpq(2)))
+        q = x + 4  (A, B, C collinear) q = x + g  (A, B, C collinear) 2*x + g  (A, B, C collinear)
+        """
+        if self.name is not None and self.name.radicand == 1 and self.name.scale.is_constant:
+            kept = GeometricName(self.name.quantity, other.ring.constant(self.name.scale.constant / ratio))
+            if (found := Factor(other, self.multiplicity, kept)).is_plain:
+                return found
+        return Factor(other, self.multiplicity, None, self.words)
 
     def latex(self, longest: int = 24) -> str:
         """The polynomial, cut where it is long; what a named quantity is on the configuration space."""
@@ -73,7 +104,7 @@ class Factor:
         return self.polynomial * self.name.scale if unit or len(self.polynomial) == 1 else None
 
     def __str__(self) -> str:
-        return f"{self.text()}  ({self.words})" if self.name else self.text()
+        return f"{self.text()}  ({self.words})" if self.words else self.text()
 
 
 def _text(polynomial: Polynomial, longest: int | None) -> str:

@@ -6,85 +6,26 @@ set in the line, where TeX breaks them after operators.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
-from singsym.output.pieces import Group, extent_of, filled, grouped, known_by, loop_equations, moving, varying
+from singsym.conditions.named_lengths import NamedLengths
+from singsym.output.conditions_latex import listed_latex, values_latex
+from singsym.output.document import escaped
+from singsym.output.pieces import Group, extent_of, filled, grouped, loop_equations, moving, varying
 from singsym.polynomials.latex import polynomial_latex, symbol_latex
 
 if TYPE_CHECKING:
     from singsym.classes.result import Classification, ClassResult, Configuration, Locus, SpacePiece
     from singsym.classes.solve import Solution
     from singsym.classes.taxonomy.types import Table
-    from singsym.conditions.conditions import Condition, Conditions
-    from singsym.conditions.factor import Factor
+    from singsym.conditions.conditions import Conditions
     from singsym.kinematics.velocity import Column, VelocityEquation
     from singsym.mechanism.model import Mechanism
     from singsym.polynomials import Polynomial, PolynomialMatrix
 
 WIDEST = 30
 """A matrix as wide as this many terms side by side fills the line; entries that do not fit get a name."""
-
-LONGEST, SHORT = 24, 8
-"""Terms of a polynomial that alone makes a condition, and of each where several vanish together."""
-
-_PREAMBLE = r"""\documentclass[a4paper,10pt]{article}
-\usepackage[T1]{fontenc}
-\usepackage[utf8]{inputenc}
-\usepackage{lmodern}
-\usepackage[margin=22mm]{geometry}
-\usepackage{amsmath,amssymb,array,booktabs,graphicx}
-\newsavebox{\fitbox}
-\newcommand{\fitted}[1]{\par\medskip\noindent\sbox{\fitbox}{#1}%
-  \ifdim\wd\fitbox>\linewidth\resizebox{\linewidth}{!}{\usebox{\fitbox}}\else\hfil\usebox{\fitbox}\fi\par\medskip}
-\relpenalty=50 \binoppenalty=100 \emergencystretch=3em
-\lineskiplimit=1pt \lineskip=2pt
-\setlength{\parindent}{0pt} \setlength{\parskip}{3pt plus 1pt}
-\raggedright
-\makeatletter\def\@listI{\leftmargin\leftmargini \topsep2pt \parsep0pt \itemsep3pt}
-\let\@listi\@listI \@beginparpenalty=10000 \makeatother
-\setlength{\tabcolsep}{5pt}
-"""
-
-_SPECIAL = str.maketrans(
-    {
-        "\\": r"\textbackslash{}",
-        "{": r"\{",
-        "}": r"\}",
-        "&": r"\&",
-        "%": r"\%",
-        "$": r"\$",
-        "#": r"\#",
-        "_": r"\_",
-        "~": r"\textasciitilde{}",
-        "^": r"\textasciicircum{}",
-        "<": r"\textless{}",
-        ">": r"\textgreater{}",
-    }
-)
-
-
-def escaped(text: str) -> str:
-    """Text from a file or a message as LaTeX text; what the fonts lack becomes a question mark.
-
-    >>> print(escaped("50 % of A_1 & B"))
-    50 \\% of A\\_1 \\& B
-    """
-    kept = "".join(c if c.isprintable() and ord(c) < 0x180 else "?" for c in " ".join(text.split()))
-    return kept.translate(_SPECIAL)
-
-
-def document(body: str, title: str) -> str:
-    """A whole document around the LaTeX of a result."""
-    head = f"{{\\LARGE\\bfseries {escaped(title)}\\par}}\\bigskip"
-    return f"{_PREAMBLE}\\begin{{document}}\n{head}\n\n{_without_fit(body)}\n\\end{{document}}"
-
-
-def _without_fit(body: str) -> str:
-    """The body with matrices scaled to the line, by a macro of the document's preamble."""
-    return re.sub(r"\\\[(\\begin\{array\}.*?\\end\{array\})\\\]", r"\\fitted{$\1$}", body, flags=re.DOTALL)
-
 
 # -- the mechanism -----------------------------------------------------------------------------------
 
@@ -178,15 +119,24 @@ def _longest_entry(matrix: PolynomialMatrix) -> int:
 # -- conditions --------------------------------------------------------------------------------------
 
 
-def conditions_latex(conditions: Conditions, mechanism: Mechanism | None = None) -> str:
-    """The loop equations, L, the reduction with its record, and (4), (5), (i)-(viii)."""
+def conditions_latex(
+    conditions: Conditions,
+    mechanism: Mechanism | None = None,
+    lengths: NamedLengths | None = None,
+    *,
+    expand: bool = False,
+) -> str:
+    """The loop equations, L, the reduction with its record, and (4), (5), (i)-(viii).
+
+    lengths: those that keep their names in the conditions; expand: all terms of polynomials in these.
+    """
     equation, reduction = conditions.equation, conditions.reduction
     parts = [_description(mechanism)] if mechanism is not None else []
     parts += [*_loops(equation), *_velocity(equation)]
     parts += [r"\section*{Reduction}", *reduction_latex(conditions)]
     if reduction.record:
         parts += matrix_latex("L", reduction.equation.L, reduction.equation.columns)
-    parts += [r"\section*{Conditions}", *(condition_latex(c) for c in conditions)]
+    parts += [r"\section*{Conditions}", listed_latex(conditions, lengths, expand=expand)]
     return "\n\n".join(parts)
 
 
@@ -205,36 +155,6 @@ def reduction_latex(conditions: Conditions) -> list[str]:
     if not items:
         return ["No passive velocity can be eliminated."]
     return ["\\begin{itemize}\n" + "\n".join(items) + "\n\\end{itemize}", last]
-
-
-def condition_latex(condition: Condition) -> str:
-    """One condition with its factors, each with its name and in words where it has them."""
-    head = rf"\textbf{{({condition.label})}}\enspace ${condition.latex_statement}$ \quad ({condition.types})"
-    if condition.everywhere:
-        return f"{head}, in every configuration."
-    if condition.alternatives is None:
-        return f"{head}."
-    if not condition.alternatives:
-        return f"{head}, in no configuration.{_units(condition)}"
-    lines = [_alternative(a) for a in condition.alternatives]
-    items = "\n".join(rf"\item[{'if' if place == 0 else 'or'}] {line}" for place, line in enumerate(lines))
-    return f"{head}\n\\begin{{itemize}}\n{items}\n\\end{{itemize}}{_units(condition)}"
-
-
-def _units(condition: Condition) -> str:
-    said = [f"${polynomial_latex(u.polynomial, 6)}$ ({escaped(u.reason)})" for u in condition.units]
-    return f"\nFactors without a feasible zero are left out: {'; '.join(said)}." if said else ""
-
-
-def _alternative(factors: Iterable[Factor]) -> str:
-    every = tuple(factors)
-    longest = LONGEST if len(every) == 1 else SHORT
-    return r" \emph{and} ".join(_factor(f, longest) for f in every)
-
-
-def _factor(factor: Factor, longest: int) -> str:
-    words = f", {escaped(factor.words)}" if factor.words else ""
-    return f"${factor.latex(longest)} = 0${words}"
 
 
 # -- classes -----------------------------------------------------------------------------------------
@@ -263,22 +183,26 @@ def classification_latex(result: Classification) -> str:
     from singsym.conditions.conditions import conditions
 
     found = conditions(result.equation, result.reduction)
-    parts = [conditions_latex(found, result.mechanism)]
+    parts = [conditions_latex(found, result.mechanism, result.lengths)]
     if result.configuration_space:
         parts += [r"\section*{Pieces of the configuration space}", _space(result.configuration_space)]
     if result.loci:
-        parts += [r"\section*{Singularity set}", _loci(result.loci)]
-    parts += [r"\section*{Classes}", _class_table(result)]
+        parts += [r"\section*{Singularity set}", _loci(result.loci, result.lengths)]
+    parts += [r"\section*{Classes}", _itemized(result.summary), *_class_table(result)]
     if result.parameters_note:
         parts.append(f"Here {escaped(result.parameters_note)}.")
     parts += [_class(c, result) for c in result.classes if c.verdict.is_yes]
     questions = [f"{what}: {reason}" for what, reason in gathered(result.open_questions())]
     for head, lines in (("Remarks", result.notes()), ("Open", questions)):
         if lines:
-            items = "\n".join(f"\\item {escaped(line)}" for line in lines)
-            parts.append(f"\\subsection*{{{head}}}\n\\begin{{itemize}}\n{items}\n\\end{{itemize}}")
+            parts.append(f"\\subsection*{{{head}}}\n{_itemized(lines)}")
     parts.append(f"Engines: {escaped(', '.join(result.engines))}; seed {result.seed}.")
     return "\n\n".join(parts)
+
+
+def _itemized(lines: Iterable[str]) -> str:
+    items = "\n".join(f"\\item {escaped(line)}" for line in lines)
+    return f"\\begin{{itemize}}\n{items}\n\\end{{itemize}}"
 
 
 def _space(pieces: Sequence[SpacePiece]) -> str:
@@ -287,12 +211,13 @@ def _space(pieces: Sequence[SpacePiece]) -> str:
     return _table(("l", "l", wide), ("dimension", "smooth", "remark"), rows)
 
 
-def _loci(loci: Sequence[Locus]) -> str:
+def _loci(loci: Sequence[Locus], lengths: NamedLengths) -> str:
     from singsym.classes.result import counts
 
     headers = ("", "", "locus", "dimension", "points", "components")
     rows = [
-        (str(i), f"({x.condition})", _locus_name(x), str(x.extent), *counts(x)) for i, x in enumerate(loci, 1)
+        (str(i), f"({x.condition})", _locus_name(x, lengths), str(x.extent), *counts(x))
+        for i, x in enumerate(loci, 1)
     ]
     wide = r">{\raggedright\arraybackslash}p{.5\linewidth}"
     return _table(("r", "l", wide, "c", "c", "c"), headers, rows)
@@ -310,13 +235,15 @@ def _table(layout: Sequence[str], headers: Sequence[str], rows: Sequence[Sequenc
     )
 
 
-def _locus_name(locus: Locus) -> str:
-    shown = f"${polynomial_latex(locus.factor, 8)} = 0$"
+def _locus_name(locus: Locus, lengths: NamedLengths) -> str:
+    shown = f"${polynomial_latex(lengths.shown(locus.factor), 8)} = 0$"
     return escaped(locus.words) if locus.words else shown
 
 
-def _class_table(result: Classification) -> str:
+def _class_table(result: Classification) -> list[str]:
+    """The classes that occur or are open, and those that are empty on a line."""
     from singsym.classes.result import counts
+    from singsym.classes.summary import empty_text, known_by, shown_classes
 
     headers = ("class", "types", "there?", "known by", "dimension", "points", "components", "step")
     rows = [
@@ -329,19 +256,25 @@ def _class_table(result: Classification) -> str:
             *counts(c),
             ", ".join(c.steps),
         )
-        for c in result.classes
+        for c in shown_classes(result)
     ]
-    return _table(("r", "l", "l", "l", "c", "c", "c", "l"), headers, rows)
+    table = _table(("r", "l", "l", "l", "c", "c", "c", "l"), headers, rows) if rows else ""
+    empty = empty_text(result)
+    types = dict.fromkeys(line for c in shown_classes(result) for line in c.types.explained)
+    parts = (table, f"{escaped(empty)}." if empty else "", _itemized(types) if types else "")
+    return [part for part in parts if part]
 
 
 def _class(result: ClassResult, whole: Classification) -> str:
     """A class that occurs: equations of its pieces, and one configuration."""
     head = f"\\subsection*{{Class {result.singularity_class.number}\\quad ({result.types})}}"
     items = []
-    for group in grouped(result.pieces, whole.loci):
+    for group in grouped(result.pieces, whole.loci, whole.lengths):
         counts = f", {group.points} points" if group.points is not None else ""
         items.append(rf"\item {_where(group)}: dimension {group.extent}{counts}")
-    items += [rf"\item perhaps also {_where(group)}" for group in grouped(result.unsure, whole.loci)]
+    items += [
+        rf"\item perhaps also {_where(group)}" for group in grouped(result.unsure, whole.loci, whole.lengths)
+    ]
     listed = "\\begin{itemize}\n" + "\n".join(items) + "\n\\end{itemize}"
     shown = [f"For instance {_configuration(w, whole.equation)}." for w in result.witnesses[:1]]
     return "\n".join([head, listed, *shown])
@@ -381,9 +314,14 @@ def _point(name: str) -> str:
     return symbol_latex(name) if len(name) > 1 else name
 
 
-def solution_latex(solutions: Iterable[Solution]) -> str:
-    """The solution sets of conditions: equations, dimensions, counts and a configuration of each piece."""
-    parts = []
+def solution_latex(solutions: Sequence[Solution], lengths: NamedLengths | None = None) -> str:
+    """The solution sets of conditions: equations, dimensions, counts and a configuration of each piece.
+
+    lengths: those that have names.
+    """
+    written = lengths or NamedLengths()
+    values = written.occurring_in(p for s in solutions for piece in s.pieces for p in piece.path)
+    parts = [values_latex(values)] if values else []
     for solution in solutions:
         head = rf"\section*{{Condition ({solution.condition.label})}}"
         parts += [head, f"${solution.condition.latex_statement}$ ({solution.condition.types})."]
@@ -391,7 +329,7 @@ def solution_latex(solutions: Iterable[Solution]) -> str:
         for piece in solution.pieces:
             counts = f", {piece.points} points" if piece.points is not None else ""
             shown = [f" For instance {_configuration(w, solution.equation)}." for w in piece.witnesses[:1]]
-            where = _equations(piece.path)
+            where = _equations([written.shown(p) for p in piece.path])
             items.append(rf"\item ${where}$, dimension {piece.extent}{counts}." + "".join(shown))
         if items:
             parts.append("\\begin{itemize}\n" + "\n".join(items) + "\n\\end{itemize}")

@@ -9,11 +9,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from singsym.effort.verdict import described
 from singsym.polynomials import Equations
 
 if TYPE_CHECKING:
-    from singsym.classes.result import Classification, ClassResult, Locus, Piece
+    from singsym.classes.result import ClassResult, Locus, Piece
+    from singsym.conditions.named_lengths import NamedLengths
     from singsym.kinematics.velocity import VelocityEquation
     from singsym.varieties.real.dimension.extent import Extent
 
@@ -28,8 +28,10 @@ class Group:
     points: int | None
 
 
-def grouped(pieces: Iterable[Piece], loci: Iterable[Locus]) -> tuple[Group, ...]:
-    """The pieces by their paths in order of appearance, points added up."""
+def grouped(
+    pieces: Iterable[Piece], loci: Iterable[Locus], lengths: NamedLengths | None = None
+) -> tuple[Group, ...]:
+    """The pieces by their paths in order of appearance, points added up; lengths: those that have names."""
     from singsym.varieties.real.dimension.extent import union
 
     words = {locus.factor: locus.words for locus in loci}
@@ -41,7 +43,12 @@ def grouped(pieces: Iterable[Piece], loci: Iterable[Locus]) -> tuple[Group, ...]
         counts = [piece.points for piece in own if piece.points is not None]
         points = sum(counts) if len(counts) == len(own) else None
         groups.append(
-            Group(path, tuple(words.get(p, "") for p in path), union(p.extent for p in own), points)
+            Group(
+                tuple(map(lengths.shown, path)) if lengths else path,
+                tuple(words.get(p, "") for p in path),
+                union(p.extent for p in own),
+                points,
+            )
         )
     return tuple(groups)
 
@@ -96,13 +103,3 @@ def counted(number: int | str, one: str) -> str:
     """A number of things in words, and what stands for a number as it is."""
     text = str(number)
     return f"{text} {one}{'' if text == '1' else 's'}" if text.isdecimal() or text == "?" else text
-
-
-def known_by(result: Classification, number: int) -> str:
-    """How the verdict on a class is known: its certainty, or that the mobility forbids the class."""
-    from singsym.classes.taxonomy.types import feasible_classes
-
-    found = next(c for c in result.classes if c.singularity_class.number == number)
-    if found.singularity_class not in feasible_classes(result.equation.n):
-        return f"impossible for n = {result.equation.n}"
-    return "" if found.verdict.is_undecided else described(found.verdict.certainty)

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from singsym.classes.solve import Solution
     from singsym.classes.taxonomy.types import Table
     from singsym.conditions.conditions import Condition, Conditions
+    from singsym.conditions.named_lengths import NamedLengths
     from singsym.kinematics.mobility import Mobility
     from singsym.kinematics.velocity import VelocityEquation
     from singsym.mechanism.model import Mechanism
@@ -73,8 +74,11 @@ def _entries(matrix: PolynomialMatrix) -> list[list[str]]:
     return [[str(e) for e in row] for row in matrix.rows]
 
 
-def conditions_data(name: str, conditions: Conditions) -> dict[str, Any]:
-    """The velocity equation, its reduction, and the conditions."""
+def conditions_data(name: str, conditions: Conditions, lengths: NamedLengths | None = None) -> dict[str, Any]:
+    """The velocity equation, its reduction, and the conditions; lengths: those that have names."""
+    from singsym.conditions.named_lengths import NamedLengths
+
+    written = lengths or NamedLengths()
     reduced = conditions.reduction.equation
     return {
         "mechanism": name,
@@ -86,12 +90,16 @@ def conditions_data(name: str, conditions: Conditions) -> dict[str, Any]:
             "rows": list(reduced.rows),
             "L": _entries(reduced.L),
         },
-        "conditions": [condition_data(c) for c in conditions],
+        "lengths": {name: str(value) for name, value in written.values.items()},
+        "conditions": [condition_data(c, written) for c in conditions],
     }
 
 
-def condition_data(condition: Condition) -> dict[str, Any]:
-    """A condition with its factors; alternatives null where it is left as a rank."""
+def condition_data(condition: Condition, lengths: NamedLengths | None = None) -> dict[str, Any]:
+    """A condition with its factors, null in names of lengths where they have no such form.
+
+    alternatives: null where it is left as a rank.
+    """
     alternatives = condition.alternatives
     return {
         "label": condition.label,
@@ -108,6 +116,7 @@ def condition_data(condition: Condition) -> dict[str, Any]:
                     "name": f.name.quantity.text if f.name else "",
                     "words": f.words,
                     "latex": f.latex(),
+                    "in_lengths": str(named) if lengths and (named := lengths.of(f.polynomial)) else None,
                 }
                 for f in alternative
             ]
@@ -140,8 +149,10 @@ def classification_data(found: Classification) -> dict[str, Any]:
         "mechanism": found.mechanism.name if found.mechanism else "",
         "N": found.equation.N,
         "n": found.equation.n,
+        "summary": list(found.summary),
         "parameters": list(found.equation.space.parameters),
         "mountings": list(found.equation.space.mountings),
+        "lengths": {name: str(value) for name, value in found.lengths.values.items()},
         "configuration_space": [
             {
                 **extent_data(piece.extent),
@@ -159,6 +170,7 @@ def classification_data(found: Classification) -> dict[str, Any]:
                 "condition": locus.condition,
                 "factor": str(locus.factor),
                 "latex": locus.latex,
+                "in_lengths": str(named) if (named := found.lengths.of(locus.factor)) else None,
                 "words": locus.words,
                 **extent_data(locus.extent),
                 "components": locus.components,
@@ -225,10 +237,16 @@ def mobility_data(name: str, equation: VelocityEquation, found: Mobility) -> dic
     }
 
 
-def solution_data(name: str, solutions: Iterable[Solution]) -> dict[str, Any]:
-    """The solution sets of conditions."""
+def solution_data(
+    name: str, solutions: Iterable[Solution], lengths: NamedLengths | None = None
+) -> dict[str, Any]:
+    """The solution sets of conditions; lengths: those that have names."""
+    from singsym.conditions.named_lengths import NamedLengths
+
+    written = lengths or NamedLengths()
     return {
         "mechanism": name,
+        "lengths": {name: str(value) for name, value in written.values.items()},
         "solutions": [
             {
                 "condition": s.condition.label,
@@ -238,6 +256,7 @@ def solution_data(name: str, solutions: Iterable[Solution]) -> dict[str, Any]:
                 "pieces": [
                     {
                         "equations": [str(p) for p in piece.path],
+                        "in_lengths": [str(written.shown(p)) for p in piece.path],
                         "basis": [str(p) for p in piece.basis],
                         "exclusions": [[str(p) for p in group] for group in piece.exclusions],
                         "verdict": str(piece.verdict.answer),

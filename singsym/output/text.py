@@ -1,4 +1,4 @@
-"""Mechanisms, conditions, classes and configurations as pages of text.
+"""Mechanisms, classes and configurations as pages of text.
 
 Source: the layouts of Tables 1 and 2 of Zlatanov, Fenton, Benhabib (1998).
 """
@@ -6,20 +6,21 @@ Source: the layouts of Tables 1 and 2 of Zlatanov, Fenton, Benhabib (1998).
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from math import degrees
 from typing import TYPE_CHECKING
 
 from singsym.effort.verdict import described
 from singsym.mechanism.choices import is_redundant
 from singsym.output.page import Block, Grid, Page
-from singsym.output.pieces import Group, extent_of, filled, grouped, known_by, loop_equations, moving, varying
+from singsym.output.pieces import Group, extent_of, filled, grouped, loop_equations, moving, varying
 
 if TYPE_CHECKING:
     from singsym.classes.configuration.at import Analysis
     from singsym.classes.configuration.null_motions import Motion
     from singsym.classes.result import Classification, ClassResult, Configuration, Locus, SpacePiece
     from singsym.classes.solve import Solution
-    from singsym.classes.taxonomy.types import Table
-    from singsym.conditions.conditions import Condition, Conditions
+    from singsym.classes.taxonomy.types import SingularityType, Table
+    from singsym.conditions.named_lengths import NamedLengths
     from singsym.elimination.engines.registry import EngineStatus
     from singsym.kinematics.mobility import Mobility
     from singsym.kinematics.velocity import VelocityEquation
@@ -137,42 +138,6 @@ def matrix_page(
     return (Grid(("", *columns), body, size),)
 
 
-# -- conditions --------------------------------------------------------------------------------------
-
-
-def conditions_page(conditions: Conditions) -> Page:
-    """L, the reduction's record, and (4), (5), (i)-(viii) with their factors."""
-    equation, reduction = conditions.equation, conditions.reduction
-    reduced = reduction.equation
-    columns = [c.label for c in equation.columns]
-    return (
-        f"N = {equation.N}, n = {equation.n}",
-        *matrix_page("L", equation.L, equation.rows, columns),
-        "\n".join(["Reduction (section 4.2):", *(f"  {line}" for line in reduction.lines)]),
-        *matrix_page("L, reduced", reduced.L, reduced.rows, [c.label for c in reduced.columns]),
-        *(condition_text(c) for c in conditions),
-    )
-
-
-def condition_text(condition: Condition) -> str:
-    """One condition with what it amounts to."""
-    lines = [f"({condition.label}) {condition.statement}: {condition.types}"]
-    if condition.everywhere:
-        lines.append("  in every configuration")
-    elif condition.alternatives is not None and not condition.alternatives:
-        lines.append("  in no configuration")
-    elif condition.alternatives is None and condition.comparison is None:
-        lines.append("  left as a rank: no determinant or list of minors is short enough")
-    for place, alternative in enumerate(condition.alternatives or ()):
-        lead = "  if " if place == 0 else "  or "
-        for factor in alternative:
-            words = f"  ({factor.words})" if factor.words else ""
-            lines.append(f"{lead}{factor.text(LONGEST)} = 0{words}")
-            lead = "     and "
-    lines += [f"  without the factor {unit}" for unit in condition.units]
-    return "\n".join(lines)
-
-
 # -- classes -----------------------------------------------------------------------------------------
 
 
@@ -188,32 +153,45 @@ def classes_page(table: Table, n: int) -> Page:
 
 
 def _legend() -> str:
-    """The abbreviations spelled out."""
-    from singsym.classes.taxonomy.types import SingularityClass, SingularityType
+    """The types explained."""
+    from singsym.classes.taxonomy.types import SingularityType
 
-    return "\n".join(f"{t}: {SingularityClass(0, t).words}" for t in SingularityType)
+    return types_text(SingularityType)
+
+
+def types_text(types: Iterable[SingularityType]) -> str:
+    """What types say of a configuration, each on a line."""
+    head = "The types; motions are velocities at the configuration"
+    return "\n".join([head, *(f"  {line}" for kind in types for line in kind.explained)])
 
 
 def classification_page(result: Classification) -> Page:
-    """What was found, in the layout of Table 2, with loci, class by class and configurations."""
+    """What was found: at a glance, class by class with configurations, then loci and what is open."""
     from singsym.classes.result import gathered
+    from singsym.classes.summary import empty_text, shown_classes
 
     name = result.mechanism.name if result.mechanism is not None else "given equations"
-    equation = result.equation
+    equation, shown = result.equation, shown_classes(result)
     sizes = f"{name}: N = {equation.N}, n = {equation.n}"
-    head = f"{sizes}; {result.parameters_note}" if result.parameters_note else sizes
+    head = "; ".join(filter(None, (sizes, result.parameters_note, result.lengths_note)))
     pieces = result.configuration_space
     space = tuple(_space_row(i if len(pieces) > 1 else 0, piece) for i, piece in enumerate(pieces, 1))
-    loci = tuple(_locus_row(i, locus) for i, locus in enumerate(result.loci, 1))
-    rows = tuple(_class_row(c, result) for c in result.classes)
-    blocks: list[Block] = [head]
-    blocks.append(_lean(_SPACE, space, "Configuration space") if space else NO_SPACE)
+    loci = tuple(_locus_row(i, locus, result.lengths) for i, locus in enumerate(result.loci, 1))
+    blocks: list[Block] = ["\n".join(result.summary), head]
+    if shown:
+        title = (
+            "The classes that occur"
+            if all(c.verdict.is_yes for c in shown)
+            else "Classes that occur or are open"
+        )
+        blocks.append(_lean(_CLASSES, tuple(_class_row(c, result) for c in shown), title))
+    blocks += filter(None, [empty_text(result)])
+    blocks += [_class_text(found, result) for found in shown if found.verdict.is_yes]
+    if types := {kind for found in shown for kind in found.types}:
+        blocks.append(types_text(sorted(types, key=lambda kind: kind.value)))
     if loci:
         blocks.append(_lean(_LOCI, loci, "The singularity set: loci of conditions (4) and (5)"))
-    blocks.append(_lean(_CLASSES, rows, "The classes"))
-    for found in result.classes:
-        if found.verdict.is_yes:
-            blocks.append(_class_text(found, result))
+    blocks.append(_lean(_SPACE, space, "Configuration space") if space else NO_SPACE)
     if notes := result.notes():
         blocks.append("\n".join(notes))
     if questions := gathered(result.open_questions()):
@@ -238,16 +216,17 @@ def _space_row(number: int, piece: SpacePiece) -> tuple[str, ...]:
     return (str(number or ""), str(piece.extent), piece.smooth, piece.remark)
 
 
-def _locus_row(number: int, locus: Locus) -> tuple[str, ...]:
+def _locus_row(number: int, locus: Locus, lengths: NamedLengths) -> tuple[str, ...]:
     from singsym.classes.result import counts
 
-    shown = locus.words or locus.factor.short_text(6)
+    shown = locus.words or lengths.shown(locus.factor).short_text(6)
     points, components = counts(locus)
     return (str(number), f"({locus.condition})", shown, str(locus.extent), components, points)
 
 
 def _class_row(result: ClassResult, whole: Classification) -> tuple[str, ...]:
     from singsym.classes.result import counts
+    from singsym.classes.summary import known_by
 
     verdict = result.verdict
     return (
@@ -264,10 +243,12 @@ def _class_row(result: ClassResult, whole: Classification) -> tuple[str, ...]:
 def _class_text(result: ClassResult, whole: Classification) -> str:
     """A class that occurs: its pieces by what vanishes on the way, and one configuration."""
     lines = [f"{result.singularity_class.number} ({result.types})"]
-    for group in grouped(result.pieces, whole.loci):
+    for group in grouped(result.pieces, whole.loci, whole.lengths):
         count = f", {group.points} points" if group.points is not None else ""
         lines.append(f"  dimension {group.extent}{count}: {_where(group)}")
-    lines += [f"  perhaps also: {_where(group)}" for group in grouped(result.unsure, whole.loci)]
+    lines += [
+        f"  perhaps also: {_where(group)}" for group in grouped(result.unsure, whole.loci, whole.lengths)
+    ]
     lines += [f"  for instance {configuration_text(w, whole.equation)}" for w in result.witnesses[:1]]
     return "\n".join(lines)
 
@@ -283,7 +264,7 @@ def configuration_text(found: Configuration, equation: VelocityEquation, digits:
     named = points_text(moving(found.points, equation), digits) or values_text(
         varying(found.coordinates, equation), digits
     )
-    joints = values_text(found.joints, digits)
+    joints = joints_text(found.joints, equation, digits)
     return f"{named}; {joints}" if joints else named
 
 
@@ -304,22 +285,43 @@ def values_text(values: Mapping[str, str | float], digits: int = 7) -> str:
     return ", ".join(f"{name} = {number_text(value, digits)}" for name, value in values.items())
 
 
+def joints_text(joints: Mapping[str, str | float], equation: VelocityEquation, digits: int = 7) -> str:
+    """Joint values by name: angles, which come in radians, in degrees, and slides as they are.
+
+    >>> from singsym.kinematics.velocity import velocity_equation
+    >>> from singsym.mechanism import load
+    >>> joints_text({"A": "3.1415926535897932", "P": "2"}, velocity_equation(load("slider-crank")))
+    'A = 180 deg, P = 2'
+    """
+    said = []
+    for name, value in joints.items():
+        angle = name in equation.values and equation.values[name].cosine is not None
+        said.append(
+            f"{name} = {number_text(degrees(float(value)) if angle else value, digits)}{' deg' * angle}"
+        )
+    return ", ".join(said)
+
+
 def number_text(value: str | float, digits: int) -> str:
     """A number for reading; what is zero but for rounding is 0."""
     number = float(value)
     return "0" if abs(number) < 1e-14 else f"{number:.{digits}g}"
 
 
-def solution_page(name: str, solutions: Iterable[Solution]) -> Page:
-    """The solution sets of conditions, piece by piece."""
-    blocks: list[Block] = [name]
+def solution_page(name: str, solutions: Sequence[Solution], lengths: NamedLengths | None = None) -> Page:
+    """The solution sets of conditions, piece by piece; lengths: those that have names."""
+    from singsym.conditions.named_lengths import NamedLengths, values_text
+
+    written = lengths or NamedLengths()
+    values = written.occurring_in(p for s in solutions for piece in s.pieces for p in piece.path)
+    blocks: list[Block] = [f"{name}: {values_text(values)}" if values else name]
     for solution in solutions:
         condition = solution.condition
         head = f"({condition.label}) {condition.statement}: {condition.types}"
         rows = tuple(
             (
                 str(number),
-                ", ".join(f"{p.short_text(6)} = 0" for p in piece.path) or "everywhere",
+                ", ".join(f"{written.shown(p).short_text(6)} = 0" for p in piece.path) or "everywhere",
                 str(piece.extent),
                 _count(piece.points) if piece.is_counted else "?",
                 "?" if piece.verdict.is_undecided else described(piece.verdict.certainty),
@@ -351,7 +353,7 @@ def analysis_page(name: str, found: Analysis) -> Page:
     head = f"{name}: N = {N}, n = {n}"
     points = {f"{p}.{axis}": x for p, xs in found.points.items() for axis, x in zip("xyz", xs, strict=False)}
     places = points_text(points) or values_text(found.values)
-    where = "\n".join(filter(None, (places, values_text(found.joints))))
+    where = "\n".join(filter(None, (places, joints_text(found.joints, found.equation))))
     ranks = tuple(
         (name, str(m.rank), str(m.full), _finite(f"{m.distance:.2e}"), _finite(f"{m.gap:.1e}"))
         for name, m in found.matrices.items()

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from singsym.classes.taxonomy.types import SingularityType as T
-from singsym.mechanism import Mechanism, load
+from singsym.mechanism import load
 from tests.classes.chains import four_bars
 from tests.classes.crank_scan import STEPS, counts, crank, dyad, fixed, found_by_singsym
 

@@ -60,6 +60,26 @@ def test_conditions_of_the_linkage_are_the_papers(capsys):
     assert words["viii"] == {"A, B, C collinear", "C, D, G collinear", "E, F, G collinear"}
 
 
+def test_conditions_in_names_of_lengths_and_expanded(capsys):
+    """The elbow of the PUMA in the letters of its DH table; L is printed when all is asked for."""
+    assert main(["conditions", "puma560"]) == 0
+    assert "or a3*s3 + d4*c3 = 0\n" in (text := capsys.readouterr().out)
+    assert text.endswith("with a2 = 0.4318, a3 = 0.0203, d4 = 0.4318\n")
+    found = data(capsys, "conditions", "puma560")
+    assert found["lengths"]["a3"] == "203/10000"
+    assert found["conditions"][1]["alternatives"][1][0]["in_lengths"] == "a3*s3 + d4*c3"
+    assert main(["conditions", "puma560", "--expand"]) == 0
+    assert "L, 6x12" in capsys.readouterr().out
+
+
+def test_solution_sets_in_names_of_lengths(capsys):
+    """A slotted lever, pivoted g = 2 from the crank, stands still where d = g s."""
+    pieces = data(capsys, "solve", "crank-slotted-lever", "5", "--workers", "1")["solutions"][0]["pieces"]
+    assert {(*p["equations"], *p["in_lengths"]) for p in pieces} == {("d_P - 2*s_block", "g*s_block - d_P")}
+    assert main(["solve", "crank-slotted-lever", "5", "--workers", "1"]) == 0
+    assert "g*s_block - d_P = 0" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize(("n", "count"), [(1, 9), (2, 19), (3, 21), (6, 21)])
 def test_classes_counts_table_1(capsys, n, count):
     assert len(data(capsys, "classes", "--n", str(n))["classes"]) == count

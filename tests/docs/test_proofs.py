@@ -105,7 +105,7 @@ def test_each_answer_and_each_certainty_has_a_row() -> None:
     assert {f"`verdict` ({answer})" for answer in Answer} <= claimed
 
 
-NAMED = {"witnesses", "variables", "joints", "rates", "constants", "L"}
+NAMED = {"witnesses", "variables", "joints", "rates", "constants", "lengths", "L"}
 """Fields that are tables of the mechanism's own names."""
 
 

@@ -11,12 +11,11 @@ from singsym.classes.taxonomy.types import table
 from singsym.conditions.conditions import conditions
 from singsym.kinematics.velocity import velocity_equation
 from singsym.mechanism import define, load
+from singsym.output.document import document, escaped
 from singsym.output.latex import (
     classes_latex,
     classification_latex,
     conditions_latex,
-    document,
-    escaped,
     mechanism_latex,
     solution_latex,
 )

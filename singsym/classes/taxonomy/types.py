@@ -37,6 +37,15 @@ class SingularityType(Flag):
         """The abbreviations of the types in the set."""
         return tuple(str(t.name) for t in self)
 
+    @property
+    def explained(self) -> tuple[str, ...]:
+        """A line for each type in the set: its name, and what it says of velocities at the configuration.
+
+        >>> print(*SingularityType.RO.explained)
+        RO, redundant output: the output can move with all inputs locked
+        """
+        return tuple(f"{t.name}, {_MEANING[t]}: {IN_WORDS[t]}" for t in self)
+
 
 _T = SingularityType
 _MEANING = {
@@ -47,6 +56,15 @@ _MEANING = {
     _T.IO: "impossible output",
     _T.IIM: "increased instantaneous mobility",
 }
+IN_WORDS = {
+    _T.RI: "some motion of the inputs leaves the output at rest",
+    _T.RO: "the output can move with all inputs locked",
+    _T.RPM: "passive joints can move with the inputs and the output at rest",
+    _T.II: "some motion of the inputs is impossible",
+    _T.IO: "some motion of the output is impossible",
+    _T.IIM: "more independent motions than the mobility n",
+}
+"""What the types say of the velocities m with L m = 0; motions here are velocities, at the configuration."""
 
 
 class Defects(NamedTuple):

@@ -12,7 +12,6 @@ from itertools import groupby
 
 from singsym.classes.result import Classification, ClassResult, gathered
 from singsym.classes.taxonomy.types import feasible_classes
-from singsym.effort.verdict import described
 from singsym.mechanism.model import Mechanism
 from singsym.output.figures.style import Picture
 from singsym.output.gallery_list import kind
@@ -66,8 +65,9 @@ def card(classification: Classification) -> Card:
         f'<h3><a href="{page_name(mechanism.name)}">{escape(mechanism.title or mechanism.name)}</a></h3>',
         f'<p class="note">{escape(mechanism.name)}: {sizes}</p>',
         f"<p>{escape(mechanism.description.strip())}</p>" if mechanism.description else "",
+        html.listed(classification.summary, "glance"),
         _table(mechanism, found) if found else "",
-        f"<p>{_rest(classification)}</p>",
+        f"<p>{_open(classification)}</p>" if classification.undecided else "",
         "".join(f'<p class="note">{escape(note)}</p>' for note in classification.notes()),
         f'<p class="note">Source: {escape(mechanism.source)}</p>' if mechanism.source else "",
     ]
@@ -104,22 +104,12 @@ def _table(mechanism: Mechanism, found: Sequence[ClassResult]) -> str:
     return html.table(("class", "types", "dimension", "parts"), rows, label)
 
 
-def _rest(classification: Classification) -> str:
-    """What is open, and what is known of the classes that are not in the table."""
-    lines = [
+def _open(classification: Classification) -> str:
+    """What is open, each with its reason."""
+    return "<br>".join(
         f'<span class="undecided">Open: {escape(what)}</span> ({escape(why)}).'
         for what, why in gathered(classification.open_questions())
-    ]
-    verdicts = [c.verdict for c in classification.classes]
-    weaker = sorted({v.certainty for v in verdicts if v.is_no} - {"proven"})
-    how = "empty" if weaker else "proven empty"
-    others = "All" if all(v.is_no for v in verdicts) else "All other"
-    said = f"{others} classes are {how}" + (
-        f" (some {', '.join(map(described, weaker))})." if weaker else "."
     )
-    if others == "All":
-        said = f"No singularity: {said[0].lower()}{said[1:]}"
-    return "<br>".join([*lines, said])
 
 
 def index(cards: Iterable[Card], planned: int) -> str:

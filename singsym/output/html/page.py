@@ -6,7 +6,7 @@ Source: singsym's own; colours follow the reader's setting by the media query pr
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from html import escape
 
 from singsym.output.figures.style import (
@@ -66,6 +66,7 @@ nav ul { display: flex; flex-wrap: wrap; gap: .25rem 1.25rem; padding: 0; list-s
 .wide { overflow-x: auto; } table { border-collapse: collapse; }
 th, td { padding: .3rem .7rem; text-align: left; vertical-align: top; border-bottom: 1px solid var(--pale);
   white-space: nowrap; }
+.glance { padding: 0; list-style: none; }
 tr.no { color: var(--faint); } .undecided { color: var(--input); font-weight: 600; }
 figure { margin: 1rem 0; } figure svg, .motion svg { max-width: 100%; height: auto; }
 figcaption, .note { color: var(--faint); font-size: .92rem; }
@@ -130,6 +131,12 @@ def figure(picture: Picture, key: str, caption: str = "", *, broad: bool = False
 def _scroll(label: str, style: str = "wide") -> str:
     """The start of a part that scrolls by itself, also by keyboard."""
     return f'<div class="{style}" tabindex="0" role="region" aria-label="{escape(label, quote=True)}">'
+
+
+def listed(lines: Iterable[str], style: str) -> str:
+    """Lines of text as a list of that CSS class; "" where there are none."""
+    items = "".join(f"<li>{escape(line)}</li>" for line in lines)
+    return f'<ul class="{style}">{items}</ul>' if items else ""
 
 
 def table(headers: Sequence[str], rows: Sequence[tuple[str, Sequence[str]]], label: str) -> str:

@@ -5,20 +5,19 @@ Source: the layout follows section 3.3 and Table 2 of Zlatanov, Fenton, Benhabib
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from html import escape
 
 from singsym.classes.configuration.null_motions import Motion
 from singsym.classes.result import Classification, ClassResult, Piece, gathered
+from singsym.classes.summary import empty_classes, known_by, shown_classes
 from singsym.classes.taxonomy.types import SingularityType
-from singsym.effort.verdict import described
 from singsym.mechanism.model import JointRate
 from singsym.output.html import mathml as math
 from singsym.output.html import page as html
+from singsym.output.html.proofs import proofs
 from singsym.output.pieces import (
     counted,
     extent_of,
-    known_by,
     loop_equations,
     moving,
     parts_of,
@@ -55,7 +54,7 @@ def report(classification: Classification) -> str:
         ("curves", "Singularity curves", _curves(classification)),
         ("strata", "Strata", _strata(classification)),
         ("equations", "Equations", _equations(classification)),
-        ("proofs", "Proofs", _proofs(classification)),
+        ("proofs", "Proofs", proofs(classification)),
     ]
     shown = [(key, title, body) for key, title, body in sections if body]
     links = "".join(f'<li><a href="#{key}">{title}</a></li>' for key, title, _ in shown)
@@ -80,8 +79,10 @@ def _head(classification: Classification) -> str:
     facts = [f"N = {equation.N} joints of one degree of freedom, mobility n = {equation.n}"]
     if classification.parameters_note:
         facts.append(classification.parameters_note)
+    if classification.lengths_note:
+        facts.append(classification.lengths_note)
     if mechanism is None:
-        return f"<p>{'; '.join(facts)}.</p>"
+        return f"{_glance(classification)}<p>{'; '.join(facts)}.</p>"
     outputs = [
         f"rate of {o.column}"
         if isinstance(o, JointRate)
@@ -99,7 +100,13 @@ def _head(classification: Classification) -> str:
     except ValueError:
         # no configuration was found numerically: the page does without the figure
         drawn = ""
-    return f'<div class="class"><div>{text}<ul>{lines}</ul>{source}</div>{drawn}</div>'
+    glance = _glance(classification)
+    return f'<div class="class"><div>{glance}{text}<ul>{lines}</ul>{source}</div>{drawn}</div>'
+
+
+def _glance(classification: Classification) -> str:
+    """What a designer asks, answered."""
+    return html.listed(classification.summary, "glance")
 
 
 # -- summary -------------------------------------------------------------------------------------------
@@ -123,7 +130,7 @@ def _summary(classification: Classification) -> str:
     return (
         f"<ul>{''.join(space)}</ul>"
         "<p>Conditions (4) and (5), det L<sub>I</sub> = 0 and det L<sub>O</sub> = 0, in factors:</p>"
-        f"{loci}<h3>The 21 classes</h3>{_class_table(classification)}{_open(classification)}"
+        f"{loci}<h3>The classes</h3>{_class_table(classification)}{_open(classification)}"
     )
 
 
@@ -141,20 +148,19 @@ def _locus_name(classification: Classification, index: int) -> str:
     head, named, _ = locus.latex.partition(" = ")
     if named and locus.words:
         return math.formula(math.name(head))
-    return math.terms(locus.factor, longest=SHORT)
+    return math.terms(classification.lengths.shown(locus.factor), longest=SHORT)
 
 
 def _class_table(classification: Classification) -> str:
     rows = []
-    for result in classification.classes:
+    for result in shown_classes(classification):
         number, verdict = result.singularity_class.number, result.verdict
         target = f"class-{number}" if verdict.is_yes else f"proof-{number}"
-        style = "no" if verdict.is_no else "undecided" if verdict.is_undecided else ""
-        there = {"yes": "yes", "no": "no", "undecided": "undecided"}[str(verdict.answer)]
+        style = "undecided" if verdict.is_undecided else ""
         cells = (
             f'<a href="#{target}">{number}</a>',
             escape(result.singularity_class.name),
-            there,
+            str(verdict.answer),
             extent_of(result),
             parts_of(result),
             escape(", ".join(result.steps)),
@@ -162,7 +168,14 @@ def _class_table(classification: Classification) -> str:
         )
         rows.append((style, cells))
     headers = ("class", "types", "there?", "dimension", "parts", "step of §3.2", "known by")
-    return html.table(headers, rows, "The 21 classes")
+    table = html.table(headers, rows, "The classes that occur or are open") if rows else ""
+    said = []
+    for how, numbers in empty_classes(classification).items():
+        links = ", ".join(f'<a href="#proof-{n}">{n}</a>' for n in numbers)
+        said.append(f"{links} ({escape(how)})")
+    empty = f"<p>Empty: {'; '.join(said)}</p>" if said else ""
+    types = {line: None for c in shown_classes(classification) for line in c.types.explained}
+    return f"{table}{empty}{html.listed(types, 'note')}"
 
 
 # -- classes -------------------------------------------------------------------------------------------
@@ -248,7 +261,7 @@ def _vanishing(classification: Classification, piece: Piece) -> str:
         if p in place:
             i = place[p]
             words = classification.loci[i].words
-            shown = escape(words) if words else math.terms(p, "=", SHORT)
+            shown = escape(words) if words else math.terms(classification.lengths.shown(p), "=", SHORT)
             lines.append(f'<a href="#locus-{i}">{shown}</a>')
         else:
             lines.append(math.terms(p, "=", 12))
@@ -262,7 +275,9 @@ def _unequal(classification: Classification, piece: Piece) -> str:
     said = []
     for f in dict.fromkeys(factors):
         words = classification.loci[place[f]].words if f in place else ""
-        said.append(f"not {escape(words)}" if words else math.terms(f, "≠", SHORT))
+        said.append(
+            f"not {escape(words)}" if words else math.terms(classification.lengths.shown(f), "≠", SHORT)
+        )
     groups = sum(len(e) > 1 for e in piece.exclusions)
     if groups:
         said.append(f"{groups} group{'' if groups == 1 else 's'} of polynomials not all zero")
@@ -336,7 +351,7 @@ def _strata(classification: Classification) -> str:
     return html.figure(plot_strata(classification, graph), "strata-graph", caption, broad=True)
 
 
-# -- equations and proofs ------------------------------------------------------------------------------
+# -- equations -----------------------------------------------------------------------------------------
 
 
 def _equations(classification: Classification) -> str:
@@ -360,7 +375,7 @@ def _equations(classification: Classification) -> str:
         where = ", ".join(f'<a href="#class-{n}">class {n}</a>' for n in used)
         parts.append(
             f'<div id="locus-{i}"><p>({escape(locus.condition)}){words}{" — " + where if where else ""}</p>'
-            f"{_line(lead + math.equation(locus.factor))}</div>"
+            f"{_line(lead + math.equation(classification.lengths.shown(locus.factor)))}</div>"
         )
     return "".join(parts)
 
@@ -379,39 +394,3 @@ def _matrix(matrix: PolynomialMatrix, columns: list[str]) -> str:
     if rows * width > LARGEST_MATRIX:
         return f"<p>A {rows}×{width} matrix, left out for its size.</p>"
     return f'<div class="formula" tabindex="0">{math.formula(math.matrix(matrix, columns))}</div>'
-
-
-def _proofs(classification: Classification) -> str:
-    return "".join(_proof(result) for result in classification.classes)
-
-
-def _proof(result: ClassResult) -> str:
-    number, verdict = result.singularity_class.number, result.verdict
-    back = f' <a href="#class-{number}">(the class)</a>' if verdict.is_yes else ""
-    lines = "".join(f"<li>{line}</li>" for line in _grounds(result))
-    answer = {"yes": "It exists", "no": "It is empty", "undecided": "Undecided"}[str(verdict.answer)]
-    certainty = f" ({described(verdict.certainty)})" if not verdict.is_undecided else ""
-    return (
-        f'<section id="proof-{number}"><h3>Class {number}: {escape(result.singularity_class.name)}{back}</h3>'
-        f"<p>{answer}{certainty}, step {escape(', '.join(result.steps) or '–')} of section 3.2.</p>"
-        f"<ul>{lines}</ul></section>"
-    )
-
-
-def _grounds(result: ClassResult) -> Iterator[str]:
-    """The reasons of a verdict, in sentences."""
-    if result.verdict.reason:
-        yield escape(result.verdict.reason)
-    seen: dict[str, int] = {}
-    for piece in (*result.pieces, *result.unsure):
-        size = "" if piece.extent.at_least < 0 else f", real dimension {piece.extent}"
-        points = f", {counted(piece.points, 'real point')}" if piece.points else ""
-        engine = f", by {piece.verdict.engine}" if piece.verdict.engine else ""
-        reason = f": {piece.verdict.reason}" if piece.verdict.reason else ""
-        line = (
-            f"a stratum of {len(piece.basis)} equations"
-            f"{size}{points}: {piece.verdict.answer} ({described(piece.verdict.certainty)}{engine}){reason}"
-        )
-        seen[line] = seen.get(line, 0) + 1
-    for line, times in seen.items():
-        yield escape(line if times == 1 else f"{times} times {line}")

@@ -1,0 +1,116 @@
+"""The conditions of a mechanism as a page of text.
+
+Source: (4), (5) and (i)-(viii) of Zlatanov, Fenton, Benhabib (1998).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from singsym.conditions.named_lengths import NamedLengths, values_text
+from singsym.output.citations import Citations, Entry, cited, is_short
+from singsym.output.page import Block, Page
+from singsym.output.text import matrix_page
+
+if TYPE_CHECKING:
+    from singsym.conditions.conditions import Condition, Conditions
+    from singsym.conditions.factor import Factor
+    from singsym.kinematics.reduction import Reduction
+
+FEW = 2
+"""More factors than these that were taken away are counted, unless all is asked for."""
+
+MOST, HEAD = 8, 4
+"""Of polynomials with more terms than these the first few are printed, unless all is asked for."""
+
+
+def conditions_page(
+    conditions: Conditions, lengths: NamedLengths | None = None, *, expand: bool = False
+) -> Page:
+    """The reduction's record, and (4), (5), (i)-(viii) with their factors.
+
+    lengths: those that keep their names; expand: L before and after the reduction too, and all terms.
+    """
+    equation, reduction = conditions.equation, conditions.reduction
+    reduced = reduction.equation
+    blocks: list[Block] = [f"N = {equation.N}, n = {equation.n}"]
+    if expand:
+        blocks += matrix_page("L", equation.L, equation.rows, [c.label for c in equation.columns])
+    if expand or reduction.record:
+        blocks.append(_reduction_text(reduction, expand))
+    if expand:
+        blocks += matrix_page("L, reduced", reduced.L, reduced.rows, [c.label for c in reduced.columns])
+    return (*blocks, conditions_text(conditions, lengths, expand=expand))
+
+
+def _reduction_text(reduction: Reduction, expand: bool) -> str:
+    """The passive velocities that were eliminated; expand: each with its pivot, constant ones too."""
+    lines = reduction.lines if expand else reduction.lines[-1:]
+    head = "Reduction (section 4.2)"
+    if not expand:
+        plain = [column for step in reduction.record if step.pivot.is_constant for column in step.columns]
+        varied = [step for step in reduction.record if not step.pivot.is_constant]
+        head += f", by constant pivots: {', '.join(plain)}" if plain else ""
+        lines = (*(f"{', '.join(step.columns)}: pivot {step.reason}" for step in varied), *lines)
+    return "\n".join([head, *(f"  {line}" for line in lines)])
+
+
+def conditions_text(
+    conditions: Iterable[Condition], lengths: NamedLengths | None = None, *, expand: bool = False
+) -> str:
+    """Conditions with what they amount to; a polynomial is printed once and cited after."""
+    listed = tuple(conditions)
+    written = lengths or NamedLengths()
+    found = cited(listed)
+    lines = [line for entry in found.entries for line in _entry(entry, found, written, expand)]
+    if values := written.occurring_in(f.polynomial for c in listed for f in c.all_factors):
+        lines.append(f"with {values_text(values)}")
+    if not expand and any(len(f.polynomial) > MOST for c in listed for f in c.all_factors):
+        lines.append("Polynomials are cut: --expand prints all of their terms")
+    return "\n".join(lines)
+
+
+def _entry(entry: Entry, found: Citations, written: NamedLengths, expand: bool) -> list[str]:
+    """One condition with its alternatives."""
+    condition = entry.condition
+    head = f"({condition.label}) {condition.statement}: {condition.types}"
+    if entry.same_as:
+        return [f"{head}; as ({entry.same_as})"]
+    if condition.everywhere:
+        head += "; in every configuration"
+    elif condition.alternatives is not None and not condition.alternatives:
+        head += "; in no configuration"
+    elif condition.alternatives is None and condition.comparison is None:
+        head += "; left as a rank: no determinant or list of minors is short enough"
+    lines = [head]
+    for place, alternative in enumerate(entry.alternatives):
+        said = [f"{_full(f, found, written, expand)} = 0{_words(f)}" for f, full in alternative if full]
+        said = said or [_cited([f for f, _ in alternative], found, written)]
+        lines.append(f"  {'or' if place else 'if'} {said[0]}")
+    below = [f for f in entry.below if expand or not f.words]
+    lines += [f"  where {_full(f, found, written, expand)}{_words(f)}" for f in below]
+    if expand or len(condition.units) <= FEW:
+        return lines + [f"  without the factor {unit}" for unit in condition.units]
+    left_out = f"{len(condition.units)} factors that vanish nowhere in the feasible set"
+    return [*lines, f"  without {left_out}: --expand prints them"]
+
+
+def _full(factor: Factor, found: Citations, written: NamedLengths, expand: bool) -> str:
+    """A factor with its polynomial, after the name that it is cited by."""
+    number = found.numbers.get(factor.polynomial)
+    shown = written.factor(factor)
+    longest = None if expand or len(shown.polynomial) <= MOST else HEAD
+    return f"{f'f{number} = ' if number else ''}{shown.text(longest)}"
+
+
+def _words(factor: Factor) -> str:
+    return f"  ({factor.words})" if factor.words else ""
+
+
+def _cited(factors: list[Factor], found: Citations, written: NamedLengths) -> str:
+    """Factors that vanish together, by their words, by short polynomials and by names."""
+    said = [f.words for f in factors if f.words]
+    equal = [f"{written.factor(f).polynomial}" for f in factors if is_short(f)]
+    equal += [f"f{number}" for number in found.numbers_of(factors)]
+    return " and ".join([*said, *([" = ".join([*equal, "0"])] if equal else [])])

@@ -1,0 +1,64 @@
+"""A LaTeX document around the LaTeX of a result, and text that is safe in it.
+
+Source: singsym's own; amsmath and booktabs.
+"""
+
+from __future__ import annotations
+
+import re
+
+_PREAMBLE = r"""\documentclass[a4paper,10pt]{article}
+\usepackage[T1]{fontenc}
+\usepackage[utf8]{inputenc}
+\usepackage{lmodern}
+\usepackage[margin=22mm]{geometry}
+\usepackage{amsmath,amssymb,array,booktabs,graphicx}
+\newsavebox{\fitbox}
+\newcommand{\fitted}[1]{\par\medskip\noindent\sbox{\fitbox}{#1}%
+  \ifdim\wd\fitbox>\linewidth\resizebox{\linewidth}{!}{\usebox{\fitbox}}\else\hfil\usebox{\fitbox}\fi\par\medskip}
+\relpenalty=50 \binoppenalty=100 \emergencystretch=3em
+\lineskiplimit=1pt \lineskip=2pt
+\setlength{\parindent}{0pt} \setlength{\parskip}{3pt plus 1pt}
+\raggedright
+\makeatletter\def\@listI{\leftmargin\leftmargini \topsep2pt \parsep0pt \itemsep3pt}
+\let\@listi\@listI \@beginparpenalty=10000 \makeatother
+\setlength{\tabcolsep}{5pt}
+"""
+
+_SPECIAL = str.maketrans(
+    {
+        "\\": r"\textbackslash{}",
+        "{": r"\{",
+        "}": r"\}",
+        "&": r"\&",
+        "%": r"\%",
+        "$": r"\$",
+        "#": r"\#",
+        "_": r"\_",
+        "~": r"\textasciitilde{}",
+        "^": r"\textasciicircum{}",
+        "<": r"\textless{}",
+        ">": r"\textgreater{}",
+    }
+)
+
+
+def escaped(text: str) -> str:
+    """Text from a file or a message as LaTeX text; what the fonts lack becomes a question mark.
+
+    >>> print(escaped("50 % of A_1 & B"))
+    50 \\% of A\\_1 \\& B
+    """
+    kept = "".join(c if c.isprintable() and ord(c) < 0x180 else "?" for c in " ".join(text.split()))
+    return kept.translate(_SPECIAL)
+
+
+def document(body: str, title: str) -> str:
+    """A whole document around the LaTeX of a result."""
+    head = f"{{\\LARGE\\bfseries {escaped(title)}\\par}}\\bigskip"
+    return f"{_PREAMBLE}\\begin{{document}}\n{head}\n\n{_without_fit(body)}\n\\end{{document}}"
+
+
+def _without_fit(body: str) -> str:
+    """The body with matrices scaled to the line, by a macro of the document's preamble."""
+    return re.sub(r"\\\[(\\begin\{array\}.*?\\end\{array\})\\\]", r"\\fitted{$\1$}", body, flags=re.DOTALL)
