@@ -7,14 +7,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import partial
-from typing import Literal
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, Literal
 
 from singsym.kinematics.formulations import place
 from singsym.kinematics.loops import loops, path, point_path
 from singsym.kinematics.placement import ConfigurationSpace, Coordinates, JointValue, Placement
 from singsym.mechanism.model import JointRate, Mechanism, Output, PointVelocity, Space
 from singsym.polynomials import Polynomial, PolynomialMatrix
+
+if TYPE_CHECKING:
+    from singsym.conditions.conditions import Conditions
 
 Role = Literal["output", "input", "passive"]
 
@@ -72,6 +75,13 @@ class VelocityEquation:
     def L_p(self) -> PolynomialMatrix:
         """L without input and output columns."""
         return self._without("input", "output")
+
+    @cached_property
+    def conditions(self) -> Conditions:
+        """Conditions (4), (5) and (i)-(viii), factored: see `singsym.conditions`."""
+        from singsym.conditions.conditions import conditions
+
+        return conditions(self)
 
     def __repr__(self) -> str:
         rows, columns = self.matrix.shape

@@ -15,7 +15,7 @@ import networkx
 from singsym.classes.result import Classification, Piece
 from singsym.effort.budget import Budget, Undecided
 from singsym.elimination.ideal import Ideal
-from singsym.output.figures.style import INK, LINK, PALE, PLATFORM, Picture, canvas
+from singsym.output.figures.style import INK, LINK, PALE, PLATFORM, Picture, entitle, paper
 from singsym.varieties.real.dimension.extent import union
 
 MANY = 16
@@ -128,8 +128,14 @@ def _inside(small: Piece, large: Piece, budget: Budget) -> bool:
     return all(vanishes.value for vanishes in known)
 
 
-def plot_strata(classification: Classification, graph: networkx.DiGraph | None = None) -> Picture:
-    """The graph of strata, one row for each dimension, edges up into the closures."""
+def plot_strata(
+    classification: Classification, graph: networkx.DiGraph | None = None, *, axes: Any = None
+) -> Picture:
+    """The graph of strata, one row for each dimension, edges up into the closures.
+
+    axes: of matplotlib, to draw on; None: those of a new figure.
+    """
+    alone = axes is None
     graph = strata_graph(classification) if graph is None else graph
     rows: dict[int, list[Any]] = {}
     for node, dimension in graph.nodes(data="dimension"):
@@ -143,8 +149,7 @@ def plot_strata(classification: Classification, graph: networkx.DiGraph | None =
         for i, node in enumerate(row):
             place[node] = ((i + 0.5) * widest / len(row), -1.6 * level)
     letters = max(len(line) for _, label in graph.nodes(data="label") for line in label.split("\n"))
-    figure = canvas(max(5.0, (0.6 + 0.075 * letters) * widest), 0.8 + 1.5 * len(order))
-    axes = figure.add_subplot()
+    axes = paper(axes, max(5.0, (0.6 + 0.075 * letters) * widest), 0.8 + 1.5 * len(order))
     axes.axis("off")
     boxes = {}
     for node, data in graph.nodes(data=True):
@@ -163,9 +168,9 @@ def plot_strata(classification: Classification, graph: networkx.DiGraph | None =
         axes.text(-0.55, -1.6 * level, f"dim {dimension}", ha="right", va="center", fontsize=9, color=INK)
     axes.set(xlim=(-1.1, widest + 0.1), ylim=(-1.6 * (len(order) - 1) - 0.7, 0.7))
     title = "Strata, with arrows into the closures that hold them"
-    figure.suptitle(title, fontsize=12, color=INK)
+    entitle(axes, title, alone=alone)
     lines = [f"{_one_line(graph, a)} lies in the closure of {_one_line(graph, b)}" for a, b in graph.edges]
-    return Picture(figure, title, "; ".join(lines))
+    return Picture(axes.figure, title, "; ".join(lines))
 
 
 def _middle(graph: networkx.DiGraph, node: Any, place: dict[Any, tuple[float, float]]) -> float:
