@@ -42,6 +42,7 @@ from singsym.conditions.conditions import Conditions, conditions
 from singsym.conditions.factor import Factor
 from singsym.effort import chance, patience
 from singsym.effort.budget import Budget
+from singsym.effort.progress import Sink, to
 from singsym.effort.verdict import weakest
 from singsym.elimination import engines
 from singsym.kinematics.reduction import reduce
@@ -83,12 +84,15 @@ def classify(
     executor: Executor | None = None,
     limits: Limits | None = None,
     cache: bool = True,
+    progress: Sink | None = None,
 ) -> Classification:
     """Find the singularity set of a mechanism and all its classes, each with proof, witness or doubt.
 
     formulation: see `kinematics.formulations.place`; workers: processes, unless an `executor` is given
     (any of `concurrent.futures`, also Dask's or MPI's); limits: budget of each task; cache: use the cache on
-    disk, so that an interrupted run goes on where it was.
+    disk, so that an interrupted run goes on where it was; progress: called with an `Event` now and then, once
+    a second at least while tasks are under way.  A `KeyboardInterrupt` that it raises does what Ctrl-C does,
+    and ends the work; so does any other exception, which passes through.
     Raises `MechanismError` for a mechanism that cannot be placed.
 
     >>> from singsym.mechanism import load
@@ -97,11 +101,12 @@ def classify(
     [(1 (RI, IO), 2)]
     """
     border = Border.of(mechanism, formulation)
-    return border.classification(
-        classify_inside(
-            mechanism, border.inside, workers=workers, executor=executor, limits=limits, cache=cache
+    with to(progress):
+        return border.classification(
+            classify_inside(
+                mechanism, border.inside, workers=workers, executor=executor, limits=limits, cache=cache
+            )
         )
-    )
 
 
 def classify_equation(
@@ -112,11 +117,13 @@ def classify_equation(
     executor: Executor | None = None,
     limits: Limits | None = None,
     cache: bool = True,
+    progress: Sink | None = None,
 ) -> Classification:
     """The same for a velocity equation, such as one of the user's own; see `classify`."""
-    found = classify_inside(
-        mechanism, equation, workers=workers, executor=executor, limits=limits, cache=cache
-    )
+    with to(progress):
+        found = classify_inside(
+            mechanism, equation, workers=workers, executor=executor, limits=limits, cache=cache
+        )
     return Border.around(equation).classification(found)
 
 

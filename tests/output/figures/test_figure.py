@@ -185,7 +185,7 @@ def test_files_and_configurations_that_are_not_there_are_refused(linkage: Classi
         plot_mechanism(load("fourbar")).save("figure.docx")
     with pytest.raises(ValueError, match="missing"):
         plot_mechanism(load("fourbar"), {"Bx": 1})
-    with pytest.raises(ValueError, match="class 12 .* does not occur"):
+    with pytest.raises(ValueError, match=r"class 12 .* does not occur"):
         plot_class(linkage, T.IIM | T.RPM)
 
 
