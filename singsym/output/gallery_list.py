@@ -5,11 +5,15 @@ Source: the files of `singsym.mechanism.library`.
 
 from __future__ import annotations
 
+from textwrap import wrap
 from typing import Any
 
 from singsym.mechanism import library, load
 from singsym.mechanism.model import Mechanism
 from singsym.output.page import Grid, Page
+
+WIDTH = 80
+"""Columns of a terminal that the list fits."""
 
 
 def kind(mechanism: Mechanism) -> str:
@@ -24,14 +28,20 @@ def kind(mechanism: Mechanism) -> str:
 
 
 def gallery_page() -> Page:
-    """Names, kinds, sizes, classes, titles and sources of all mechanisms of the library."""
-    rows = []
-    for mechanism in map(load, library.names()):
-        size = str(mechanism.N), str(mechanism.n)
-        about = mechanism.title, mechanism.source
-        rows.append((mechanism.name, kind(mechanism), *size, _numbers(mechanism.name), *about))
-    headers = ("name", "kind", "N", "n", "classes", "what it is", "source")
-    note = "classes: numbers of those that occur, see singsym classes; ... where others are undecided"
+    """Names, sizes, titles, kinds and classes of all mechanisms of the library, within `WIDTH` columns."""
+    mechanisms = [load(name) for name in library.names()]
+    longest = max(len(m.name) for m in mechanisms)
+    rows: list[tuple[str, ...]] = []
+    for m in mechanisms:
+        about = [m.title, f"{kind(m)}; classes {_numbers(m.name)}"]
+        lines = [line for text in about for line in wrap(text, WIDTH - longest - len("  NN  n  "))]
+        rows.append((m.name, str(m.N), str(m.n), lines[0]))
+        rows += [("", "", "", line) for line in lines[1:]]
+    headers = ("name", "N", "n", "what it is, and the classes that occur")
+    note = (
+        "classes: see singsym classes; ... where others are undecided\n"
+        "sources: singsym show NAME, or --format json"
+    )
     return (Grid(headers, tuple(rows)), note)
 
 
