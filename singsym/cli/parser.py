@@ -337,5 +337,5 @@ def _shell(command: argparse.ArgumentParser) -> None:
 
 def _install(command: argparse.ArgumentParser) -> None:
     command.add_argument(
-        "--install", action="store_true", help="bring Singular and msolve into this environment with pip"
+        "--install", action="store_true", help="bring Singular and msolve with pip, beside the packages"
     )

@@ -45,7 +45,7 @@ def run_engines(chosen: argparse.Namespace) -> int:
     from singsym.elimination.engines.registry import install, status
 
     if chosen.install:
-        say("Installing Singular and msolve with pip, without their dependencies ...")
+        say("Bringing Singular and msolve with pip, without their dependencies ...")
         try:
             install()
         except RuntimeError as error:
