@@ -10,7 +10,7 @@ from typing import Any
 
 from singsym.mechanism import library, load
 from singsym.mechanism.model import Mechanism
-from singsym.output.page import Grid, Page
+from singsym.output.page import Page
 
 WIDTH = 80
 """Columns of a terminal that the list fits."""
@@ -28,21 +28,18 @@ def kind(mechanism: Mechanism) -> str:
 
 
 def gallery_page() -> Page:
-    """Names, sizes, titles, kinds and classes of all mechanisms of the library, within `WIDTH` columns."""
-    mechanisms = [load(name) for name in library.names()]
-    longest = max(len(m.name) for m in mechanisms)
-    rows: list[tuple[str, ...]] = []
-    for m in mechanisms:
-        about = [m.title, f"{kind(m)}; classes {_numbers(m.name)}"]
-        lines = [line for text in about for line in wrap(text, WIDTH - longest - len("  NN  n  "))]
-        rows.append((m.name, str(m.N), str(m.n), lines[0]))
-        rows += [("", "", "", line) for line in lines[1:]]
-    headers = ("name", "N", "n", "what it is, and the classes that occur")
-    note = (
-        "classes: see singsym classes; ... where others are undecided\n"
-        "sources: singsym show NAME, or --format json"
-    )
-    return (Grid(headers, tuple(rows)), note)
+    """Names, kinds, sizes, classes, titles and sources of all mechanisms, within `WIDTH` columns."""
+    lines: list[str] = []
+    for m in map(load, library.names()):
+        lines += _wrapped(f"{m.name}: {kind(m)}, N = {m.N}, n = {m.n}; classes {_numbers(m.name)}", 0)
+        lines += [*_wrapped(m.title, 2), *_wrapped(m.source, 2)]
+    note = "classes: numbers of those that occur, see singsym classes; ... where others are undecided"
+    return ("\n".join(lines), "\n".join(_wrapped(note, 0)))
+
+
+def _wrapped(text: str, indent: int) -> list[str]:
+    """Lines of at most `WIDTH` columns; those after the first are indented more."""
+    return wrap(text, WIDTH, initial_indent=" " * indent, subsequent_indent=" " * (indent + 2))
 
 
 def _numbers(name: str) -> str:

@@ -68,7 +68,7 @@ class Picture:
 
 def paper(axes: Any, width: float, height: float) -> Any:
     """The axes to draw on: those given, or of None the only ones of a new figure of this size in inches."""
-    return _canvas(width, height).add_subplot() if axes is None else axes
+    return canvas(width, height).add_subplot() if axes is None else axes
 
 
 def entitle(axes: Any, title: str, *, alone: bool) -> None:
@@ -79,7 +79,7 @@ def entitle(axes: Any, title: str, *, alone: bool) -> None:
         axes.set_title(title, fontsize=11, color=INK)
 
 
-def _canvas(width: float, height: float) -> Any:
+def canvas(width: float, height: float) -> Any:
     """An empty figure of this size in inches, apart from pyplot's global state."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
