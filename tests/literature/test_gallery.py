@@ -249,7 +249,7 @@ def test_spherical_5r(classified: Classified) -> None:
     result = classified(load("spherical-5r"))
     T = SingularityType
     for kinds, axes in ((T.RO | T.II, "BCD"), (T.RI | T.IO, "ACE")):
-        for w in result.of(kinds).witnesses:
+        for w in result[kinds].witnesses:
             q = w.floats()
             fixed = {"A": (0.0, 0.0, 1.0), "E": (1.0, 0.0, 0.0)}
             rows = [fixed.get(a) or [q[f"{a}{i}"] for i in "xyz"] for a in axes]
