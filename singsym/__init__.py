@@ -14,98 +14,206 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from singsym.classes.classify import Limits, classify, classify_equation
-    from singsym.classes.configuration.at import at, at_equation
-    from singsym.classes.result import Classification
-    from singsym.classes.solve import solve, solve_equation
-    from singsym.classes.taxonomy.types import Defects, SingularityType, class_of, feasible_classes
-    from singsym.conditions.conditions import conditions
-    from singsym.effort.budget import Budget
-    from singsym.effort.verdict import Verdict
+    from singsym.classes.configuration.at import Analysis, MatrixReport, at, at_equation
+    from singsym.classes.configuration.given_values import Given
+    from singsym.classes.configuration.locate import Located
+    from singsym.classes.configuration.null_motions import Motion
+    from singsym.classes.result import Classification, ClassResult, Configuration, Locus, Piece, SpacePiece
+    from singsym.classes.running.runner import Interrupted
+    from singsym.classes.solve import Solution, SolutionPiece, solve, solve_equation
+    from singsym.classes.taxonomy.types import (
+        Defects,
+        SingularityClass,
+        SingularityType,
+        class_of,
+        feasible_classes,
+    )
+    from singsym.conditions.conditions import Condition, Conditions
+    from singsym.conditions.factor import Factor
+    from singsym.conditions.redundant import RedundantChain, redundant_chain
+    from singsym.effort.budget import Budget, BudgetExceeded, Cancelled, Undecided
+    from singsym.effort.chance import use_seed
+    from singsym.effort.progress import Event
+    from singsym.effort.verdict import Answer, Known, Verdict
     from singsym.elimination import engines
     from singsym.elimination.ideal import Ideal
+    from singsym.kinematics.mobility import Mobility, check_mobility
     from singsym.kinematics.own_equation import SymbolicSpace, from_sympy
-    from singsym.kinematics.reduction import reduce
-    from singsym.kinematics.velocity import loop_closure, velocity_equation
-    from singsym.mechanism import Choice, Mechanism, MechanismError, check, define, dumps, load, loads
+    from singsym.kinematics.placement import ConfigurationSpace, JointValue
+    from singsym.kinematics.reduction import Elimination, Reduction, reduce
+    from singsym.kinematics.velocity import Column, VelocityEquation, loop_closure, velocity_equation
+    from singsym.mechanism import (
+        Choice,
+        Exclusion,
+        Joint,
+        JointKind,
+        JointRate,
+        Limit,
+        Link,
+        Mechanism,
+        MechanismError,
+        Parameter,
+        PointVelocity,
+        Problem,
+        Space,
+        Twist,
+        check,
+        define,
+        dumps,
+        library,
+        load,
+        loads,
+    )
+    from singsym.output.figures.figure import plot_configuration, plot_mechanism
+    from singsym.output.figures.style import Picture
     from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
+    from singsym.polynomials.ring import AlgebraicConstant
     from singsym.varieties.constructible import ConstructibleSet
-    from singsym.varieties.decomposition import decompose
+    from singsym.varieties.decomposition import Component, decompose
+    from singsym.varieties.real.curves.real_curve import CurveComponent, RealCurve, real_curve
+    from singsym.varieties.real.dimension.extent import Extent
+    from singsym.varieties.real.points.exact_point import RealPoint
 
 _HOMES = {
+    "singsym.classes.classify": "Limits classify classify_equation",
+    "singsym.classes.configuration.at": "Analysis MatrixReport at at_equation",
+    "singsym.classes.configuration.given_values": "Given",
+    "singsym.classes.configuration.locate": "Located",
+    "singsym.classes.configuration.null_motions": "Motion",
+    "singsym.classes.result": "Classification ClassResult Configuration Locus Piece SpacePiece",
+    "singsym.classes.running.runner": "Interrupted",
+    "singsym.classes.solve": "Solution SolutionPiece solve solve_equation",
+    "singsym.classes.taxonomy.types": "Defects SingularityClass SingularityType class_of feasible_classes",
+    "singsym.conditions.conditions": "Condition Conditions",
+    "singsym.conditions.factor": "Factor",
+    "singsym.conditions.redundant": "RedundantChain redundant_chain",
+    "singsym.effort.budget": "Budget BudgetExceeded Cancelled Undecided",
+    "singsym.effort.chance": "use_seed",
+    "singsym.effort.progress": "Event",
+    "singsym.effort.verdict": "Answer Known Verdict",
+    "singsym.elimination": "engines",
+    "singsym.elimination.ideal": "Ideal",
+    "singsym.kinematics.mobility": "Mobility check_mobility",
+    "singsym.kinematics.own_equation": "SymbolicSpace from_sympy",
+    "singsym.kinematics.placement": "ConfigurationSpace JointValue",
+    "singsym.kinematics.reduction": "Elimination Reduction reduce",
+    "singsym.kinematics.velocity": "Column VelocityEquation loop_closure velocity_equation",
     "singsym.mechanism": (
-        "Choice",
-        "Mechanism",
-        "MechanismError",
-        "check",
-        "define",
-        "dumps",
-        "load",
-        "loads",
+        "Choice Exclusion Joint JointKind JointRate Limit Link Mechanism MechanismError Parameter "
+        "PointVelocity Problem Space Twist check define dumps library load loads"
     ),
-    "singsym.kinematics.velocity": ("loop_closure", "velocity_equation"),
-    "singsym.kinematics.own_equation": ("SymbolicSpace", "from_sympy"),
-    "singsym.kinematics.reduction": ("reduce",),
-    "singsym.elimination": ("engines",),
-    "singsym.effort.budget": ("Budget",),
-    "singsym.conditions.conditions": ("conditions",),
-    "singsym.elimination.ideal": ("Ideal",),
-    "singsym.effort.verdict": ("Verdict",),
-    "singsym.varieties.constructible": ("ConstructibleSet",),
-    "singsym.varieties.decomposition": ("decompose",),
-    "singsym.classes.configuration.at": ("at", "at_equation"),
-    "singsym.classes.classify": ("Limits", "classify", "classify_equation"),
-    "singsym.classes.result": ("Classification",),
-    "singsym.classes.solve": ("solve", "solve_equation"),
-    "singsym.classes.taxonomy.types": ("Defects", "SingularityType", "class_of", "feasible_classes"),
-    "singsym.polynomials": ("Polynomial", "PolynomialMatrix", "Ring"),
+    "singsym.output.figures.figure": "plot_configuration plot_mechanism",
+    "singsym.output.figures.style": "Picture",
+    "singsym.polynomials": "Polynomial PolynomialMatrix Ring",
+    "singsym.polynomials.ring": "AlgebraicConstant",
+    "singsym.varieties.constructible": "ConstructibleSet",
+    "singsym.varieties.decomposition": "Component decompose",
+    "singsym.varieties.real.curves.real_curve": "CurveComponent RealCurve real_curve",
+    "singsym.varieties.real.dimension.extent": "Extent",
+    "singsym.varieties.real.points.exact_point": "RealPoint",
 }
-_HOME = {name: home for home, names in _HOMES.items() for name in names}
+_HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
 
 __all__ = [
+    "AlgebraicConstant",
+    "Analysis",
+    "Answer",
     "Budget",
+    "BudgetExceeded",
+    "Cancelled",
     "Choice",
+    "ClassResult",
     "Classification",
+    "Column",
+    "Component",
+    "Condition",
+    "Conditions",
+    "Configuration",
+    "ConfigurationSpace",
     "ConstructibleSet",
+    "CurveComponent",
     "Defects",
+    "Elimination",
+    "Event",
+    "Exclusion",
+    "Extent",
+    "Factor",
+    "Given",
     "Ideal",
+    "Interrupted",
+    "Joint",
+    "JointKind",
+    "JointRate",
+    "JointValue",
+    "Known",
+    "Limit",
     "Limits",
+    "Link",
+    "Located",
+    "Locus",
+    "MatrixReport",
     "Mechanism",
     "MechanismError",
+    "Mobility",
+    "Motion",
+    "Parameter",
+    "Picture",
+    "Piece",
+    "PointVelocity",
     "Polynomial",
     "PolynomialMatrix",
+    "Problem",
+    "RealCurve",
+    "RealPoint",
+    "Reduction",
+    "RedundantChain",
     "Ring",
+    "SingularityClass",
     "SingularityType",
+    "Solution",
+    "SolutionPiece",
+    "Space",
+    "SpacePiece",
     "SymbolicSpace",
+    "Twist",
+    "Undecided",
+    "VelocityEquation",
     "Verdict",
     "at",
     "at_equation",
     "check",
+    "check_mobility",
     "class_of",
     "classify",
     "classify_equation",
-    "conditions",
     "decompose",
     "define",
     "dumps",
     "engines",
     "feasible_classes",
     "from_sympy",
+    "library",
     "load",
     "loads",
     "loop_closure",
+    "plot_configuration",
+    "plot_mechanism",
+    "real_curve",
     "reduce",
+    "redundant_chain",
     "solve",
     "solve_equation",
+    "use_seed",
     "velocity_equation",
 ]
 
 
 def __getattr__(name: str) -> Any:
-    """A public name, imported from its home."""
+    """A public name, imported from its home; some are modules."""
     if name not in _HOME:
         raise AttributeError(f"module 'singsym' has no attribute {name!r}")
     home = import_module(_HOME[name])
-    value = import_module(f"{_HOME[name]}.{name}") if name == "engines" else getattr(home, name)
+    value = getattr(home, name) if hasattr(home, name) else import_module(f"{_HOME[name]}.{name}")
     globals()[name] = value
     return value
 

@@ -39,6 +39,7 @@ from singsym.conditions.conditions import Conditions, conditions
 from singsym.conditions.factor import Factor
 from singsym.effort import chance, patience
 from singsym.effort.budget import Budget
+from singsym.effort.progress import Sink, to
 from singsym.effort.verdict import weakest
 from singsym.elimination import engines
 from singsym.kinematics.reduction import reduce
@@ -80,12 +81,15 @@ def classify(
     executor: Executor | None = None,
     limits: Limits | None = None,
     cache: bool = True,
+    progress: Sink | None = None,
 ) -> Classification:
     """Find the singularity set of a mechanism and all its classes, each with proof, witness or doubt.
 
     formulation: see `kinematics.formulations.place`; workers: processes, unless an `executor` is given
     (any of `concurrent.futures`, also Dask's or MPI's); limits: budget of each task; cache: use the cache on
-    disk, so that an interrupted run goes on where it was.
+    disk, so that an interrupted run goes on where it was; progress: called with an `Event` now and then, once
+    a second at least while tasks are under way.  A `KeyboardInterrupt` that it raises does what Ctrl-C does,
+    and ends the work; so does any other exception, which passes through.
     Raises `MechanismError` for a mechanism that cannot be placed, and `Interrupted` with what is known on
     a `KeyboardInterrupt` while tasks are under way.
 
@@ -95,7 +99,7 @@ def classify(
     [(1 (RI, IO), 2)]
     """
     border, limits = Border.of(mechanism, formulation), limits or Limits()
-    with running(workers, executor, limits.clock, cache) as runner:
+    with to(progress), running(workers, executor, limits.clock, cache) as runner:
         found = classify_inside(mechanism, border.inside, runner, limits)
     return _whole(border.classification(found))
 
@@ -108,10 +112,11 @@ def classify_equation(
     executor: Executor | None = None,
     limits: Limits | None = None,
     cache: bool = True,
+    progress: Sink | None = None,
 ) -> Classification:
     """The same for a velocity equation, such as one of the user's own; see `classify`."""
     limits = limits or Limits()
-    with running(workers, executor, limits.clock, cache) as runner:
+    with to(progress), running(workers, executor, limits.clock, cache) as runner:
         found = classify_inside(mechanism, equation, runner, limits)
     return _whole(Border.around(equation).classification(found))
 

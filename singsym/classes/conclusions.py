@@ -11,7 +11,7 @@ from itertools import islice
 
 from singsym.classes.realisation.curve_components import Counted
 from singsym.classes.realisation.realisation import Realised
-from singsym.classes.result import ClassResult, Locus, Piece, conditions_latex
+from singsym.classes.result import ClassResult, Locus, Piece
 from singsym.classes.strata.search import Exploration
 from singsym.classes.taxonomy.steps import excluded_in, found_in
 from singsym.classes.taxonomy.types import SingularityClass, SingularityType, feasible_classes
@@ -23,6 +23,7 @@ from singsym.effort.verdict import Certainty, Verdict, weakest
 from singsym.elimination.ideal import Ideal
 from singsym.kinematics.mobility import check_mobility
 from singsym.polynomials import Polynomial
+from singsym.polynomials.latex import polynomial_latex
 from singsym.varieties.real.dimension.extent import EMPTY, Extent, union
 from singsym.varieties.real.numerical.sampling import is_large
 
@@ -211,3 +212,23 @@ def _reservations(extent: Extent, known: Certainty) -> str:
     if extent.bounded != "proven":
         return "that no part of it has a larger dimension rests on random primes"
     return ""
+
+
+def conditions_latex(pieces: Sequence[Piece]) -> str:
+    """The equations and inequations of a class as LaTeX: the factors on the way to each piece."""
+    lines: dict[str, None] = {}
+    for piece in pieces:
+        equal = [f"{polynomial_latex(p)} = 0" for p in piece.path]
+        unequal = [_nonzero_latex(e) for e in piece.exclusions]
+        lines[r",\; ".join((*equal, *unequal))] = None
+    return r" \quad\text{or}\quad ".join(lines)
+
+
+def _nonzero_latex(exclusion: tuple[Polynomial, ...]) -> str:
+    if len(exclusion) == 1:
+        factors = [p for p, _ in exclusion[0].factors()]
+        if len(factors) > 1:
+            return r",\; ".join(f"{polynomial_latex(p)} \\ne 0" for p in factors)
+        return f"{polynomial_latex(exclusion[0])} \\ne 0"
+    listed = ", ".join(polynomial_latex(p, 6) for p in exclusion)
+    return rf"\left({listed}\right) \ne 0"

@@ -6,9 +6,12 @@ Source: Zlatanov, Fenton, Benhabib (1998), section 3.2 and the layout of Table 2
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
 from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from singsym.classes.taxonomy.types import Defects, SingularityClass, SingularityType
 from singsym.conditions.named_lengths import NamedLengths, named_lengths, values_text
@@ -17,8 +20,10 @@ from singsym.kinematics.reduction import Reduction
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import Mechanism
 from singsym.polynomials import Equations, Polynomial
-from singsym.polynomials.latex import polynomial_latex
 from singsym.varieties.real.dimension.extent import UNKNOWN, Extent
+
+if TYPE_CHECKING:
+    from singsym.output.figures.style import Picture
 
 
 @dataclass(frozen=True)
@@ -35,8 +40,16 @@ class Configuration:
     radius: str
 
     def floats(self) -> dict[str, float]:
-        """The configuration variables as floats, for drawing."""
-        return {name: float(value) for name, value in self.coordinates.items()}
+        """Coordinates, points and joints as floats, by name; the decimals have more digits.
+
+        >>> Configuration({"Bx": "0.25"}, {"B.x": "0.25"}, {"A": "1.318"}, "1e-3").floats()
+        {'Bx': 0.25, 'B.x': 0.25, 'A': 1.318}
+        """
+        return {name: float(value) for name, value in self.decimals().items()}
+
+    def decimals(self) -> dict[str, str]:
+        """Coordinates, points and joints together, as decimal strings by name."""
+        return {**self.coordinates, **self.points, **self.joints}
 
     def _repr_html_(self) -> str:
         rows = [(name, value) for name, value in (self.points or self.coordinates).items()]
@@ -169,8 +182,9 @@ class SpacePiece:
 
 @dataclass(frozen=True)
 class Classification:
-    """Everything found out about a mechanism's singularities; `output.plain_data` gives it as plain data.
+    """Everything found out about a mechanism's singularities.
 
+    `result[4]` and `result["RO, II"]` are single classes; iteration goes through all.
     mechanism: None where a velocity equation was given by itself; seed: of all random choices; remarks: what
     is to be said of the conditions as a whole; interrupted: whether a user ended the work.
     """
@@ -242,12 +256,76 @@ class Classification:
         names = (*space.parameters, *(f"how {name} is mounted" for name in space.mountings))
         return f"dimensions count {', '.join(names)}, which may vary" if names else ""
 
-    def of(self, types: SingularityType) -> ClassResult:
-        """The result for the class of exactly these types; raises `KeyError` for others."""
+    def __iter__(self) -> Iterator[ClassResult]:
+        """All classes, by their numbers."""
+        return iter(self.classes)
+
+    def __getitem__(self, key: int | str | SingularityType) -> ClassResult:
+        """The result for a class, by its number (`4`), or by exactly its types (`"RO, II"`, in any order).
+
+        Raises `KeyError` where there is no such class.
+        """
+        wanted = key
+        if isinstance(key, str):
+            with suppress(KeyError):
+                wanted = SingularityType.named(key)
         for result in self.classes:
-            if result.types == types:
+            if wanted in (result.singularity_class.number, result.types):
                 return result
-        raise KeyError(f"{types!r} is not one of the {len(self.classes)} classes")
+        raise KeyError(f"{key!r}: expected a number from 1 to {len(self.classes)}, or types as 'RO, II'")
+
+    def table(self) -> list[dict[str, Any]]:
+        """The classes as rows of plain data, for example for `pandas.DataFrame(result.table())`."""
+        from singsym.output.plain_data import class_rows
+
+        return class_rows(self)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything as plain data to be read by people and programs: what `--format json` prints."""
+        from singsym.output.plain_data import classification_data
+
+        return classification_data(self)
+
+    def to_json(self) -> str:
+        """Everything as text from which `from_json` makes an equal classification again.
+
+        Raises `ValueError` for a mechanism that no file can describe.
+        """
+        from singsym.classes.result_file import dumps
+
+        return dumps(self)
+
+    @classmethod
+    def from_json(cls, text: str) -> Classification:
+        """The classification that `to_json` wrote; raises `ValueError` for any other text.
+
+        Only a version of singsym whose results have the same parts reads it.
+        """
+        from singsym.classes.result_file import loads
+
+        return loads(text)
+
+    def plot(
+        self, what: int | str | SingularityType | None = None, *, witness: int = 0, ax: Any = None
+    ) -> Picture:
+        """A picture, which a notebook shows and `Picture.save` writes.
+
+        what: a class as for `result[...]`, at its configuration number `witness`; "inputs" or "outputs", the
+        singularity curves over two of these; "strata", which class borders on which; None: the mechanism.
+        ax: axes of matplotlib to draw on; None: those of a new figure.
+        Raises `ValueError` where there is nothing to draw, `KeyError` where there is no such class.
+        """
+        from singsym.output.pictures import picture
+
+        return picture(self, what, witness=witness, axes=ax)
+
+    def report(self, path: str | Path) -> Path:
+        """Write one HTML page with everything, which loads nothing from elsewhere; raises `OSError`."""
+        from singsym.output.html.report import report
+
+        target = Path(path)
+        target.write_text(report(self), encoding="utf-8")
+        return target
 
     def _repr_html_(self) -> str:
         from singsym.classes.summary import empty_text, shown_classes
@@ -324,26 +402,6 @@ def counts(found: Locus | ClassResult) -> tuple[str, str]:
     if found.dimension == 0 and found.components is None:
         components = "" if found.points is not None else missing
     return ("" if at_least == 1 else points), components
-
-
-def conditions_latex(pieces: Sequence[Piece]) -> str:
-    """The equations and inequations of a class as LaTeX: the factors on the way to each piece."""
-    lines: dict[str, None] = {}
-    for piece in pieces:
-        equal = [f"{polynomial_latex(p)} = 0" for p in piece.path]
-        unequal = [_nonzero_latex(e) for e in piece.exclusions]
-        lines[r",\; ".join((*equal, *unequal))] = None
-    return r" \quad\text{or}\quad ".join(lines)
-
-
-def _nonzero_latex(exclusion: tuple[Polynomial, ...]) -> str:
-    if len(exclusion) == 1:
-        factors = [p for p, _ in exclusion[0].factors()]
-        if len(factors) > 1:
-            return r",\; ".join(f"{polynomial_latex(p)} \\ne 0" for p in factors)
-        return f"{polynomial_latex(exclusion[0])} \\ne 0"
-    listed = ", ".join(polynomial_latex(p, 6) for p in exclusion)
-    return rf"\left({listed}\right) \ne 0"
 
 
 def _sizes(result: ClassResult) -> tuple[str, str, str]:

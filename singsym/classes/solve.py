@@ -18,6 +18,7 @@ from singsym.classes.taxonomy.types import SingularityType
 from singsym.classes.unit_border import Border
 from singsym.conditions.conditions import Condition, Conditions, conditions
 from singsym.effort.budget import Budget, Undecided, current
+from singsym.effort.progress import Sink, to
 from singsym.effort.verdict import Certainty, Known, Premises, Verdict, weakest
 from singsym.elimination.ideal import Ideal
 from singsym.kinematics.velocity import VelocityEquation
@@ -175,6 +176,7 @@ def solve(
     executor: Executor | None = None,
     limits: Limits | None = None,
     cache: bool = True,
+    progress: Sink | None = None,
 ) -> tuple[Solution, ...]:
     """The solution sets of conditions "4", "5", "i" ... "viii", one each; options as for `classify`.
 
@@ -185,15 +187,16 @@ def solve(
     >>> dead.dimension, sum(p.points for p in dead.pieces)
     (0, 2)
     """
-    return _solved(
-        Border.of(mechanism, formulation),
-        labels,
-        workers=workers,
-        executor=executor,
-        limits=limits,
-        cache=cache,
-        mechanism=mechanism,
-    )
+    with to(progress):
+        return _solved(
+            Border.of(mechanism, formulation),
+            labels,
+            workers=workers,
+            executor=executor,
+            limits=limits,
+            cache=cache,
+            mechanism=mechanism,
+        )
 
 
 def solve_equation(
@@ -203,18 +206,20 @@ def solve_equation(
     executor: Executor | None = None,
     limits: Limits | None = None,
     cache: bool = True,
+    progress: Sink | None = None,
     mechanism: Mechanism | None = None,
 ) -> tuple[Solution, ...]:
     """The same for a velocity equation, such as one of the user's own."""
-    return _solved(
-        Border.around(equation),
-        labels,
-        workers=workers,
-        executor=executor,
-        limits=limits,
-        cache=cache,
-        mechanism=mechanism,
-    )
+    with to(progress):
+        return _solved(
+            Border.around(equation),
+            labels,
+            workers=workers,
+            executor=executor,
+            limits=limits,
+            cache=cache,
+            mechanism=mechanism,
+        )
 
 
 def _solved(

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 from flint import fmpq
 
+from singsym.classes.conclusions import conditions_latex
 from singsym.classes.result import (
     Classification,
     ClassResult,
@@ -20,7 +21,6 @@ from singsym.classes.result import (
     Locus,
     Piece,
     SpacePiece,
-    conditions_latex,
 )
 from singsym.conditions.conditions import conditions
 from singsym.conditions.factor import Factor

@@ -6,8 +6,11 @@ Source: argparse; each command's function is in the module of its group and is i
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Callable
+from difflib import get_close_matches
 from importlib import import_module
+from textwrap import fill
 from typing import Any
 
 STORY = """\
@@ -37,7 +40,10 @@ def _lazily(module: str, function: str) -> Callable[[argparse.Namespace], int]:
     """The command's function, imported when it is called, so that `singsym list` does not load solvers."""
 
     def run(chosen: argparse.Namespace) -> int:
-        code: int = getattr(import_module(f"singsym.cli.{module}"), function)(chosen)
+        from singsym.cli.watch import talking
+
+        with talking(chosen.talk):
+            code: int = getattr(import_module(f"singsym.cli.{module}"), function)(chosen)
         return code
 
     return run
@@ -45,7 +51,7 @@ def _lazily(module: str, function: str) -> Callable[[argparse.Namespace], int]:
 
 def parser() -> argparse.ArgumentParser:
     """The parser; `run` of what it returns is the command's function."""
-    top = argparse.ArgumentParser(
+    top = _Top(
         prog="singsym",
         description=STORY,
         epilog=EXAMPLES,
@@ -54,15 +60,18 @@ def parser() -> argparse.ArgumentParser:
     )
     top.add_argument("--version", action="version", version=f"singsym {_version()}")
     top.set_defaults(run=None, command="", on_interrupt="")
-    commands = top.add_subparsers(title="commands", metavar="", dest="command", prog="singsym")
+    commands = top.add_subparsers(
+        title="commands", metavar="", dest="command", prog="singsym", parser_class=argparse.ArgumentParser
+    )
 
     def add(
         name: str, module: str, words: str, *parts: Callable[[argparse.ArgumentParser], None]
     ) -> argparse.ArgumentParser:
-        command = commands.add_parser(name, help=words, description=words.capitalize() + ".")
+        command = commands.add_parser(name, help=words, description=f"{words[0].upper()}{words[1:]}.")
         command.set_defaults(run=_lazily(module, f"run_{name}"), on_interrupt="")
         for part in parts:
             part(command)
+        _talk(command, works=_work in parts)
         return command
 
     short, printed = _formats("text", "json"), _formats("text", "latex", "json")
@@ -107,8 +116,24 @@ def parser() -> argparse.ArgumentParser:
     usual |= {"components": [], "lock": [], "joints": []}
     add("gallery", "gallery", words, _work, _folder).set_defaults(**usual)
     add("engines", "tools", "which engines there are, and how to get the others", _install, short)
+    add("cache", "tools", "the results that are kept on disk, and how to clear them", _clear, short)
     add("completion", "tools", "a script that completes commands in a shell", _shell)
     return top
+
+
+class _Top(argparse.ArgumentParser):
+    """The parser of the program itself, which says what commands there are where one is not known."""
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """See `argparse.ArgumentParser.parse_known_args`."""
+        words = [a for a in (sys.argv[1:] if args is None else args) if not a.startswith("-")]
+        known = [name for a in self._actions if isinstance(a.choices, dict) for name in a.choices]
+        if words and words[0] not in known:
+            close = get_close_matches(words[0], known, 1)
+            advice = f"; did you mean {close[0]}?" if close else ""
+            listed = fill(f"commands: {', '.join(known)}", 80)
+            self.error(f"there is no command {words[0]!r}{advice}\n{listed}")
+        return super().parse_known_args(args, namespace)
 
 
 def commands() -> list[tuple[str, list[str], bool]]:
@@ -325,11 +350,29 @@ def _shown(command: argparse.ArgumentParser) -> None:
     )
 
 
+def _clear(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--clear", action="store_true", help="take all of them away")
+
+
+def _talk(command: argparse.ArgumentParser, works: bool) -> None:
+    """What is said on stderr; works: whether the command may take long."""
+    command.set_defaults(talk="usual")
+    choice = command.add_mutually_exclusive_group()
+
+    def add(name: str, words: str) -> None:
+        choice.add_argument(f"--{name}", dest="talk", action="store_const", const=name, help=words)
+
+    add("quiet", "nothing on stderr but errors")
+    if works:
+        add("progress", "lines on stderr while it works, where that is no terminal too")
+    add("verbose", "all that happens, as lines on stderr")
+
+
 def _shell(command: argparse.ArgumentParser) -> None:
     command.add_argument("shell", choices=("bash", "zsh"), help='use: eval "$(singsym completion bash)"')
 
 
 def _install(command: argparse.ArgumentParser) -> None:
     command.add_argument(
-        "--install", action="store_true", help="bring Singular and msolve into this environment with pip"
+        "--install", action="store_true", help="bring Singular and msolve with pip, beside the packages"
     )

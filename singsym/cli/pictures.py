@@ -7,26 +7,19 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from singsym.cli.mechanisms import placed, read
 from singsym.cli.screen import UserError
 from singsym.cli.singularities import UNDECIDED, classified
 
-if TYPE_CHECKING:
-    from singsym.classes.result import Classification
-    from singsym.output.figures.style import Picture
-
 
 def run_report(chosen: argparse.Namespace) -> int:
     """`singsym report MECHANISM -o FILE`: prints the file's name."""
-    from singsym.output.html.report import report
-
     path = Path(chosen.output or f"{Path(chosen.mechanism).stem}.html")
     _writable(path)
     result = classified(chosen)
     try:
-        path.write_text(report(result), encoding="utf-8")
+        result.report(path)
     except OSError as error:
         raise UserError(f"{path} cannot be written: {error.strerror}") from None
     print(path)
@@ -52,10 +45,10 @@ def run_plot(chosen: argparse.Namespace) -> int:
         else:
             result = classified(chosen)
             code = UNDECIDED if result.undecided else 0
-            picture = _picture(result, chosen.shown)
+            picture = result.plot(int(chosen.shown) if chosen.shown.isdecimal() else chosen.shown)
         picture.save(path)
-    except ValueError as error:
-        raise UserError(str(error)) from None
+    except (ValueError, KeyError) as error:
+        raise UserError(str(error.args[0])) from None
     except OSError as error:
         raise UserError(f"{path} cannot be written: {error.strerror}") from None
     print(path)
@@ -66,24 +59,3 @@ def _writable(path: Path) -> None:
     """Say before the work starts that its result could not be written."""
     if not path.absolute().parent.is_dir():
         raise UserError(f"{path} cannot be written: there is no folder {path.parent}")
-
-
-def _picture(result: Classification, shown: str) -> Picture:
-    if shown == "strata":
-        from singsym.output.strata_graph import plot_strata
-
-        return plot_strata(result)
-    if shown.isdecimal():
-        from singsym.output.figures.figure import plot_class
-
-        number = int(shown)
-        found = next((c for c in result.classes if c.singularity_class.number == number), None)
-        if found is None:
-            raise ValueError(f"there is no class {number}: the classes are numbered from 1 to 21")
-        if not found.witnesses:
-            fact = "does not occur" if found.verdict.is_no else "has no known configuration"
-            raise ValueError(f"class {number} ({found.types}) {fact}: {found.verdict.reason}")
-        return plot_class(result, found)
-    from singsym.output.figures.curves import plot_curves
-
-    return plot_curves(result, shown)

@@ -7,10 +7,12 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any
+
+from singsym.cli.watch import talk, watched
 
 if TYPE_CHECKING:
     from singsym.effort.progress import Event
@@ -22,8 +24,9 @@ class UserError(Exception):
 
 
 def say(text: str) -> None:
-    """A message on stderr."""
-    print(text, file=sys.stderr)
+    """A message on stderr, unless the user wants none."""
+    if talk.get() != "quiet":
+        print(text, file=sys.stderr)
 
 
 def emit_data(data: Any) -> None:
@@ -77,7 +80,7 @@ def _wrapped(block: str, width: int) -> str:
 
 @contextmanager
 def progress_shown() -> Iterator[None]:
-    """Show the events of the work inside on stderr, one line that changes; nothing where it is no terminal.
+    """Show the events of the work inside on stderr, as `singsym.cli.watch` says.
 
     A `KeyboardInterrupt` that passes through gets the last stage as its message.
     """
@@ -90,38 +93,8 @@ def progress_shown() -> Iterator[None]:
             last[0] = str(event)
 
     try:
-        with _bar(note) as sink, progress.to(sink):
+        with watched(note) as sink, progress.to(sink):
             yield
     except KeyboardInterrupt as interruption:
         interruption.args = interruption.args or (last[0],)
         raise
-
-
-@contextmanager
-def _bar(note: Callable[[Event], None]) -> Iterator[Callable[[Event], None]]:
-    """What shows an event and notes it; only notes it where stderr is no terminal."""
-    if not sys.stderr.isatty():
-        yield note
-        return
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, SpinnerColumn, TextColumn
-    from rich.progress import TimeElapsedColumn as Elapsed
-
-    columns = (
-        SpinnerColumn(),
-        TextColumn("{task.description}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        Elapsed(),
-    )
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task("starting", total=None)
-
-        def show(event: Event) -> None:
-            note(event)
-            described = f"{event.stage}: {event.detail}" if event.detail else event.stage
-            bar.update(task, description=described[:70])
-            if event.done is not None:
-                bar.update(task, completed=event.done, total=event.total)
-
-        yield show

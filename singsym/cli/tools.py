@@ -1,4 +1,4 @@
-"""The commands about singsym itself: engines, completion.
+"""The commands about singsym itself: engines, cache, completion.
 
 Source: singsym's own.
 """
@@ -45,7 +45,7 @@ def run_engines(chosen: argparse.Namespace) -> int:
     from singsym.elimination.engines.registry import install, status
 
     if chosen.install:
-        say("Installing Singular and msolve with pip, without their dependencies ...")
+        say("Bringing Singular and msolve with pip, without their dependencies ...")
         try:
             install()
         except RuntimeError as error:
@@ -57,4 +57,26 @@ def run_engines(chosen: argparse.Namespace) -> int:
     from singsym.output.text import engines_page
 
     emit_page(engines_page(found))
+    return 0
+
+
+def run_cache(chosen: argparse.Namespace) -> int:
+    """`singsym cache [--clear]`: where results are kept, how many and how large."""
+    from singsym.classes.running.disk_cache import user_cache
+
+    cache = user_cache()
+    if cache is None:
+        raise UserError("there is no folder for a cache: set SINGSYM_CACHE to an absolute path")
+    try:
+        if chosen.clear:
+            cleared = cache.clear()
+            say(f"Cleared {cleared} result{'' if cleared == 1 else 's'}.")
+        sizes = cache.sizes()
+    except OSError as error:
+        raise UserError(f"{error.filename or cache.folder}: {error.strerror}") from None
+    if chosen.format == "json":
+        emit_data({"folder": str(cache.folder), "results": len(sizes), "bytes": sum(sizes)})
+    else:
+        results = f"{len(sizes)} result{'' if len(sizes) == 1 else 's'}"
+        emit_page((f"{cache.folder}: {results}, {sum(sizes) / 1e6:.1f} MB",))
     return 0

@@ -9,6 +9,7 @@ import time
 from collections.abc import Callable
 from contextvars import ContextVar, Token
 
+from singsym.effort import progress
 from singsym.effort.chaos import strikes
 from singsym.effort.processor_time import worked
 
@@ -80,6 +81,7 @@ class Budget:
 
     def check(self, what: str = "") -> None:
         """Raise `BudgetExceeded` or `Cancelled` where the work should end; `what` names it."""
+        progress.beat()
         if self.cancelled is not None and self.cancelled():
             raise Cancelled(f"called off{f' ({what})' if what else ''}")
         if self.remaining() == 0.0:

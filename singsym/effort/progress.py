@@ -5,6 +5,7 @@ Source: the event sinks of Python's `logging`, scoped by `contextvars`.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -32,14 +33,40 @@ class Event:
 
 
 Sink = Callable[[Event], None]
-_sink: ContextVar[Sink | None] = ContextVar("progress_sink", default=None)
+"""What is called with events, in the thread that works; what it raises ends the work."""
+
+BEAT = 1.0
+"""Seconds without an event, after which the last one is sent again: a sink can show time, or end the work."""
+
+
+class _Listener:
+    """A sink, and what it was told last."""
+
+    def __init__(self, sink: Sink) -> None:
+        self.sink = sink
+        self.last: Event | None = None
+        self.told = 0.0
+
+    def tell(self, event: Event) -> None:
+        self.last, self.told = event, time.monotonic()
+        self.sink(event)
+
+
+_listener: ContextVar[_Listener | None] = ContextVar("progress_listener", default=None)
 
 
 def report(stage: str, detail: str = "", done: int | None = None, total: int | None = None) -> None:
     """Tell the sink in force, if any, what is going on."""
-    sink = _sink.get()
-    if sink is not None:
-        sink(Event(stage, detail, done, total))
+    listener = _listener.get()
+    if listener is not None:
+        listener.tell(Event(stage, detail, done, total))
+
+
+def beat() -> None:
+    """Tell the sink in force the last event again, if that was a while ago; for loops that may take long."""
+    listener = _listener.get()
+    if listener is not None and listener.last is not None and time.monotonic() - listener.told >= BEAT:
+        listener.tell(listener.last)
 
 
 @contextmanager
@@ -55,8 +82,8 @@ def to(sink: Sink | None) -> Iterator[None]:
     if sink is None:
         yield
         return
-    token = _sink.set(sink)
+    token = _listener.set(_Listener(sink))
     try:
         yield
     finally:
-        _sink.reset(token)
+        _listener.reset(token)

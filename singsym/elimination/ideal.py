@@ -58,7 +58,7 @@ class Ideal:
     def _repr_latex_(self) -> str:
         import sympy
 
-        inside = ", ".join(sympy.latex(self.ring.to_sympy(g)) for g in self.generators) or "0"
+        inside = ", ".join(sympy.latex(g.to_sympy()) for g in self.generators) or "0"
         return rf"$\left\langle {inside} \right\rangle$"
 
     # -- Groebner basis --------------------------------------------------------------------------

@@ -16,15 +16,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations, permutations
-from typing import TYPE_CHECKING
 
 from flint import fmpq, fmpz
 
 from singsym.kinematics.nonzero import Certifier
+from singsym.kinematics.velocity import VelocityEquation
 from singsym.polynomials import Polynomial, PolynomialMatrix
-
-if TYPE_CHECKING:
-    from singsym.kinematics.velocity import VelocityEquation
 
 LARGEST_BLOCK = 3
 """Up to this many columns are eliminated together: the spins of a spherical joint."""

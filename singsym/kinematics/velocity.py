@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import partial
-from typing import Literal
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, Literal
 
 from singsym.kinematics.couplings import coupling_rows
 from singsym.kinematics.formulations import place
@@ -17,6 +17,9 @@ from singsym.kinematics.loops import loops, path, point_path
 from singsym.kinematics.placement import ConfigurationSpace, Coordinates, JointValue, Placement
 from singsym.mechanism.model import JointRate, Mechanism, Output, PointVelocity, Space
 from singsym.polynomials import Polynomial, PolynomialMatrix
+
+if TYPE_CHECKING:
+    from singsym.conditions.conditions import Conditions
 
 Role = Literal["output", "input", "passive"]
 
@@ -74,6 +77,13 @@ class VelocityEquation:
     def L_p(self) -> PolynomialMatrix:
         """L without input and output columns."""
         return self._without("input", "output")
+
+    @cached_property
+    def conditions(self) -> Conditions:
+        """Conditions (4), (5) and (i)-(viii), factored: see `singsym.conditions`."""
+        from singsym.conditions.conditions import conditions
+
+        return conditions(self)
 
     def __repr__(self) -> str:
         rows, columns = self.matrix.shape

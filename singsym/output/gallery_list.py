@@ -5,11 +5,15 @@ Source: the files of `singsym.mechanism.library`.
 
 from __future__ import annotations
 
+from textwrap import wrap
 from typing import Any
 
 from singsym.mechanism import library, load
 from singsym.mechanism.model import Mechanism
-from singsym.output.page import Grid, Page
+from singsym.output.page import Page
+
+WIDTH = 80
+"""Columns of a terminal that the list fits."""
 
 
 def kind(mechanism: Mechanism) -> str:
@@ -24,15 +28,18 @@ def kind(mechanism: Mechanism) -> str:
 
 
 def gallery_page() -> Page:
-    """Names, kinds, sizes, classes, titles and sources of all mechanisms of the library."""
-    rows = []
-    for mechanism in map(load, library.names()):
-        size = str(mechanism.N), str(mechanism.n)
-        about = mechanism.title, mechanism.source
-        rows.append((mechanism.name, kind(mechanism), *size, _numbers(mechanism.name), *about))
-    headers = ("name", "kind", "N", "n", "classes", "what it is", "source")
+    """Names, kinds, sizes, classes, titles and sources of all mechanisms, within `WIDTH` columns."""
+    lines: list[str] = []
+    for m in map(load, library.names()):
+        lines += _wrapped(f"{m.name}: {kind(m)}, N = {m.N}, n = {m.n}; classes {_numbers(m.name)}", 0)
+        lines += [*_wrapped(m.title, 2), *_wrapped(m.source, 2)]
     note = "classes: numbers of those that occur, see singsym classes; ... where others are undecided"
-    return (Grid(headers, tuple(rows)), note)
+    return ("\n".join(lines), "\n".join(_wrapped(note, 0)))
+
+
+def _wrapped(text: str, indent: int) -> list[str]:
+    """Lines of at most `WIDTH` columns; those after the first are indented more."""
+    return wrap(text, WIDTH, initial_indent=" " * indent, subsequent_indent=" " * (indent + 2))
 
 
 def _numbers(name: str) -> str:

@@ -143,7 +143,7 @@ def classes_data(table: Table, n: int) -> dict[str, Any]:
 
 def classification_data(found: Classification) -> dict[str, Any]:
     """Everything that a classification found out."""
-    from singsym.classes.result import conditions_latex
+    from singsym.classes.conclusions import conditions_latex
 
     return {
         "mechanism": found.mechanism.name if found.mechanism else "",
@@ -191,6 +191,7 @@ def classification_data(found: Classification) -> dict[str, Any]:
                 "points": result.points,
                 "components": result.components,
                 "witnesses": [_witness(w) for w in result.witnesses],
+                "witness_numbers": [w.floats() for w in result.witnesses],
                 "conditions": result.conditions,
                 "unsure": [conditions_latex([piece]) for piece in result.unsure],
                 "steps": list(result.steps),
@@ -204,6 +205,29 @@ def classification_data(found: Classification) -> dict[str, Any]:
         "seed": found.seed,
         "seconds": round(found.seconds, 3),
     }
+
+
+def class_rows(found: Classification) -> list[dict[str, Any]]:
+    """The 21 classes, a row of text and numbers each; None where there is no number, or it is open.
+
+    at_least: the dimension, as far as it is known; witnesses: how many certified configurations there are.
+    """
+    return [
+        {
+            "class": result.singularity_class.number,
+            "types": result.singularity_class.name,
+            "verdict": str(result.verdict.answer),
+            "certainty": str(result.verdict.certainty),
+            "dimension": result.dimension,
+            "at_least": result.extent.at_least if result.verdict.is_yes else None,
+            "points": result.points,
+            "components": result.components,
+            "witnesses": len(result.witnesses),
+            "steps": ", ".join(result.steps),
+            "reason": result.verdict.reason or result.open or result.remark,
+        }
+        for result in found.classes
+    ]
 
 
 def extent_data(extent: Extent) -> dict[str, Any]:
@@ -221,7 +245,7 @@ def extent_data(extent: Extent) -> dict[str, Any]:
 
 def _witness(found: Configuration) -> dict[str, str]:
     """One flat object name -> decimal string, with `radius`."""
-    return {**found.coordinates, **found.points, **found.joints, "radius": found.radius}
+    return {**found.decimals(), "radius": found.radius}
 
 
 def mobility_data(name: str, equation: VelocityEquation, found: Mobility) -> dict[str, Any]:

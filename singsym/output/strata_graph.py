@@ -16,7 +16,7 @@ from singsym.classes.result import Classification, Piece
 from singsym.effort.budget import Budget, Undecided
 from singsym.elimination.ideal import Ideal
 from singsym.output.figures.layers import Arrow, Box, box_width, draw_layers, row_height
-from singsym.output.figures.style import INK, LINK, PLATFORM, Picture, canvas
+from singsym.output.figures.style import INK, LINK, PLATFORM, Picture, entitle, paper
 from singsym.varieties.real.dimension.extent import union
 
 MANY = 16
@@ -129,8 +129,14 @@ def _inside(small: Piece, large: Piece, budget: Budget) -> bool:
     return all(vanishes.value for vanishes in known)
 
 
-def plot_strata(classification: Classification, graph: networkx.DiGraph | None = None) -> Picture:
-    """The graph of strata, one row for each dimension, edges up into the closures."""
+def plot_strata(
+    classification: Classification, graph: networkx.DiGraph | None = None, *, axes: Any = None
+) -> Picture:
+    """The graph of strata, one row for each dimension, edges up into the closures.
+
+    axes: of matplotlib, to draw on; None: those of a new figure.
+    """
+    alone = axes is None
     graph = strata_graph(classification) if graph is None else graph
     rows: dict[int, list[Any]] = {}
     for node, dimension in graph.nodes(data="dimension"):
@@ -138,8 +144,7 @@ def plot_strata(classification: Classification, graph: networkx.DiGraph | None =
     order = sorted(rows, reverse=True)
     boxes = {node: _box(data) for node, data in graph.nodes(data=True)}
     widest = max(len(row) for row in rows.values())
-    figure = canvas(max(5.0, box_width(boxes.values()) * widest), 0.8 + 1.5 * len(order))
-    axes = figure.add_subplot()
+    axes = paper(axes, max(5.0, box_width(boxes.values()) * widest), 0.8 + 1.5 * len(order))
     arrows = [Arrow(*edge) for edge in graph.edges(data="whole")]
     draw_layers(axes, [rows[dimension] for dimension in order], boxes, arrows)
     for row, dimension in enumerate(order):
@@ -147,9 +152,9 @@ def plot_strata(classification: Classification, graph: networkx.DiGraph | None =
         axes.text(-0.55, row_height(row), f"dim {dimension}", **style)
     axes.set(xlim=(-1.1, widest + 0.1))
     title = "Strata, with arrows into the closures that hold them"
-    figure.suptitle(title, fontsize=12, color=INK)
+    entitle(axes, title, alone=alone)
     lines = [f"{_one_line(graph, a)} lies in the closure of {_one_line(graph, b)}" for a, b in graph.edges]
-    return Picture(figure, title, "; ".join(lines))
+    return Picture(axes.figure, title, "; ".join(lines))
 
 
 def _box(data: dict[str, Any]) -> Box:

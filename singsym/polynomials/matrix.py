@@ -81,7 +81,7 @@ class PolynomialMatrix:
 
     def to_sympy(self) -> sympy.Matrix:
         """The same matrix in SymPy."""
-        entries = [[self.ring.to_sympy(e) for e in row] for row in self.rows]
+        entries = [[e.to_sympy() for e in row] for row in self.rows]
         return sympy.ImmutableMatrix(len(self.rows), self.width, [e for row in entries for e in row])
 
     def _repr_latex_(self) -> str:

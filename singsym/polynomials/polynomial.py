@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, Any, Union
 from flint import fmpq, fmpq_mpoly, fmpz, fmpz_mpoly
 
 if TYPE_CHECKING:
+    import sympy
+
     from singsym.polynomials.ring import Ring
 
 Rational = int | Fraction | fmpz | fmpq
@@ -301,6 +303,22 @@ class Polynomial:
             table = tuple((p, q, own) for (p, q), own in zip(numbers, places, strict=True))
             object.__setattr__(self, "_terms", table)
             return self._terms
+
+    def to_sympy(self) -> sympy.Expr:
+        """The same polynomial as an expanded SymPy expression, with the ring's constants put in.
+
+        >>> from singsym.polynomials import Ring
+        >>> x, y = Ring(("x", "y")).gens
+        >>> ((x + y) ** 2).to_sympy()
+        x**2 + 2*x*y + y**2
+        """
+        import sympy
+
+        terms = []
+        for exponents, c in self.terms():
+            powers = [s**e for s, e in zip(self.ring.symbols, exponents, strict=True) if e]
+            terms.append(sympy.Mul(sympy.Rational(int(c.p), int(c.q)), *powers))
+        return sympy.Add(*terms)
 
     # -- display ---------------------------------------------------------------------------------
 

@@ -157,15 +157,11 @@ class Ring:
             raise ValueError(f"{expression} is not a polynomial over Q in {self!r}: {error}") from None
         return self.from_dict({m: fmpq(int(c.p), int(c.q)) for m, c in polynomial.terms() if c})
 
-    def to_sympy(self, polynomial: Polynomial) -> sympy.Expr:
-        """The same polynomial as an expanded SymPy expression, with the constants put in."""
-        names = {c.name: c.expression for c in self.constants}
-        symbols = [names.get(name, sympy.Symbol(name)) for name in self.names]
-        terms = []
-        for exponents, c in polynomial.terms():
-            powers = [s**e for s, e in zip(symbols, exponents, strict=True) if e]
-            terms.append(sympy.Mul(sympy.Rational(int(c.p), int(c.q)), *powers))
-        return sympy.Add(*terms)
+    @cached_property
+    def symbols(self) -> tuple[sympy.Expr, ...]:
+        """A SymPy symbol for each name, and the number itself for a constant."""
+        known = {c.name: c.expression for c in self.constants}
+        return tuple(known.get(name, sympy.Symbol(name)) for name in self.names)
 
     # -- other rings -----------------------------------------------------------------------------
 

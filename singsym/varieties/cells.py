@@ -66,14 +66,14 @@ class Cell:
         """The cell as LaTeX, without dollars."""
 
         def zeros(group: tuple[Polynomial, ...]) -> str:
-            inside = ", ".join(sympy.latex(self.ring.to_sympy(p)) for p in group) or "0"
+            inside = ", ".join(sympy.latex(p.to_sympy()) for p in group) or "0"
             return rf"V\left({inside}\right)"
 
         text = zeros(self.ideal.generators)
         if self.exclusions:
             text += r" \setminus " + r" \setminus ".join(map(zeros, self.exclusions))
-        conditions = [sympy.latex(self.ring.to_sympy(p)) + " > 0" for p in self.positive]
-        conditions += [sympy.latex(self.ring.to_sympy(p)) + r" \ge 0" for p in self.nonnegative]
+        conditions = [sympy.latex(p.to_sympy()) + " > 0" for p in self.positive]
+        conditions += [sympy.latex(p.to_sympy()) + r" \ge 0" for p in self.nonnegative]
         if conditions:
             text += r" \cap \left\{" + ", ".join(conditions) + r"\right\}"
         return text

@@ -75,7 +75,7 @@ def test_legs_that_are_folded_at_once_turn_freely(name: str) -> None:
     straight. All three legs are folded there, so each leg's own locus of (5) has dimension 3 too.
     """
     result = classified(name)
-    assert result.of(STILL).dimension == 3
+    assert result[STILL].dimension == 3
     assert [locus.dimension for locus in of_condition(result, "5")] == [3, 3, 3]
 
 
@@ -91,7 +91,7 @@ def test_three_legs_alike_have_loci_alike(name: str) -> None:
     result = classified(name)
     loci = of_condition(result, "5")
     assert [locus.dimension for locus in loci if not locus.verdict.is_no] == [3, 3, 3]
-    assert result.of(STILL).dimension == 3
+    assert result[STILL].dimension == 3
 
 
 @pytest.mark.slow
@@ -108,7 +108,7 @@ def test_a_configuration_with_one_leg_singular_is_in_a_piece_of_class_1() -> Non
     result = classified("delta-guided")
     ring = result.equation.space.ring
     values = [point[name] for name in ring.names]
-    assert any(all(abs(p.evaluate(values)) < 1e-6 for p in piece.basis) for piece in result.of(STILL).pieces)
+    assert any(all(abs(p.evaluate(values)) < 1e-6 for p in piece.basis) for piece in result[STILL].pieces)
 
 
 # -- parts that are lost -------------------------------------------------------------------------------
@@ -127,7 +127,7 @@ def test_an_architecture_singular_platform() -> None:
     equation = velocity_equation(mechanism)
     assert conditions(equation, reduce(equation))["4"].everywhere
     result = classify(mechanism, cache=False, limits=Limits(seconds=3, total=6))
-    assert not result.of(STILL).verdict.is_yes
+    assert not result[STILL].verdict.is_yes
     assert not all(c.verdict.is_no for c in result.classes)
     assert not any(locus.verdict.is_no for locus in of_condition(result, "5"))
 
@@ -141,7 +141,7 @@ def test_an_exclusion_leaves_two_points_to_be_counted() -> None:
     """
     result = classified("kite-exclusion")
     assert occurring(result) == {DEAD: 0}
-    dead = result.of(DEAD)
+    dead = result[DEAD]
     assert dead.points == 2
     found = sorted([float(w.points[k]) for k in ("B.x", "B.y", "C.x", "C.y")] for w in dead.witnesses)
     root = math.sqrt(3)
@@ -173,7 +173,7 @@ def test_a_linkage_stretched_as_far_as_it_goes_is_one_point(name: str) -> None:
     """
     result = classified(name)
     assert occurring(result) == {FLAT: 0}
-    assert result.of(FLAT).points == 1
+    assert result[FLAT].points == 1
     assert space_dimensions(result) == {0}
 
 
@@ -187,8 +187,8 @@ def test_four_right_arcs() -> None:
     """
     result = classified("all-right-spherical")
     assert occurring(result) == {STILL: 1, DEAD: 1, FLAT: 0}
-    assert result.of(FLAT).points == 4
-    assert (result.of(STILL).components, result.of(DEAD).components) == (2, 2)
+    assert result[FLAT].points == 4
+    assert (result[STILL].components, result[DEAD].components) == (2, 2)
     assert space_dimensions(result) == {1}
 
 
@@ -202,8 +202,8 @@ def test_three_parallel_cranks() -> None:
     """
     result = classified("three-crank-coupler-rate")
     assert occurring(result) == {STILL: 1, FLAT: 0}
-    assert result.of(FLAT).points == 2
-    assert result.of(STILL).components == 1
+    assert result[FLAT].points == 2
+    assert result[STILL].components == 1
     assert space_dimensions(result) == {1}
 
 
@@ -265,7 +265,7 @@ def test_two_circles_on_which_both_rods_turn_alike() -> None:
     With both outputs at rest both rods turn at one rate w, not 0, and C's vertical velocity is w (C.x - B.x):
     so C is above or below B, C = (p, +-1), and |CD| = 1 is p^2 + (s -+ 1)^2 = 1: two circles of (RI, IO).
     """
-    still = classified("prrrp-joint-rate").of(STILL)
+    still = classified("prrrp-joint-rate")[STILL]
     assert still.verdict.is_yes
     assert (still.dimension, still.components) == (1, 2)
     for w in still.witnesses:
@@ -281,7 +281,7 @@ def test_a_six_bar_linkage_with_square_roots() -> None:
     """
     result = classified("stephenson-square-roots")
     assert occurring(result) == {STILL: 0, DEAD: 0}
-    assert (result.of(STILL).points, result.of(DEAD).points) == (4, 6)
+    assert (result[STILL].points, result[DEAD].points) == (4, 6)
 
 
 # -- arms and over-constrained chains --------------------------------------------------------------------
@@ -291,7 +291,7 @@ def test_a_planar_arm_stretched_and_folded() -> None:
     """Two links of length 1: (RI, IO) where they are in line, whatever the first angle: two circles."""
     result = classified("at-2r-folded")
     assert occurring(result) == {STILL: 1}
-    assert result.of(STILL).components == 2
+    assert result[STILL].components == 2
 
 
 def test_an_elbow_arm() -> None:

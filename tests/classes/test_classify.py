@@ -35,7 +35,7 @@ def test_classes_that_the_mobility_forbids_say_so(crank_rocker: Classification) 
 
 def test_witnesses_are_full_configurations(crank_rocker: Classification) -> None:
     """Points and joint angles to 15 digits within the radius; lengths 4, 1, 7/2, 3 hold there."""
-    found = crank_rocker.of(T.RI | T.IO)
+    found = crank_rocker[T.RI | T.IO]
     assert found.points == len(found.witnesses) == 4
     for w in found.witnesses:
         assert float(w.radius) < 1e-14
@@ -48,7 +48,7 @@ def test_witnesses_are_full_configurations(crank_rocker: Classification) -> None
 
 
 def test_empty_classes_have_a_reason(crank_rocker: Classification) -> None:
-    dead = crank_rocker.of(T.RO | T.II)
+    dead = crank_rocker[T.RO | T.II]
     assert dead.verdict.is_no
     assert dead.verdict.reason
 
@@ -72,17 +72,17 @@ def test_of_a_mode_by_itself_the_ranks_do_not_say_whether_it_is_smooth() -> None
 
 def test_steps_of_the_procedure(crank_rocker: Classification) -> None:
     """Section 3.2: no IIM after step 1, no RPM after 2, (RI, IO) divided off in 6."""
-    assert crank_rocker.of(T.RI | T.IO).steps == ("6",)
-    assert crank_rocker.of(T.RI | T.RO | T.IIM).steps == ("1",)
-    assert crank_rocker.of(T.RPM | T.II | T.IO).steps == ("2",)
+    assert crank_rocker[T.RI | T.IO].steps == ("6",)
+    assert crank_rocker[T.RI | T.RO | T.IIM].steps == ("1",)
+    assert crank_rocker[T.RPM | T.II | T.IO].steps == ("2",)
 
 
 def test_conditions_are_printed(crank_rocker: Classification) -> None:
-    assert "x_{C}" in crank_rocker.of(T.RI | T.IO).conditions
+    assert "x_{C}" in crank_rocker[T.RI | T.IO].conditions
 
 
 def test_mirror_images_are_other_configurations(crank_rocker: Classification) -> None:
-    found = {round(float(w.points["C.y"]), 9) for w in crank_rocker.of(T.RI | T.IO).witnesses}
+    found = {round(float(w.points["C.y"]), 9) for w in crank_rocker[T.RI | T.IO].witnesses}
     assert found == {-y for y in found}
 
 
@@ -142,5 +142,5 @@ def test_too_small_a_budget_leaves_doubts_and_no_false_answers() -> None:
     for c in hurried.classes:
         if c.verdict.is_undecided:
             assert c.verdict.reason
-    rpm = hurried.of(T.RPM | T.II | T.IO)
+    rpm = hurried[T.RPM | T.II | T.IO]
     assert not rpm.verdict.is_no

@@ -21,7 +21,7 @@ def test_a_point_on_two_factors_counts_once():
     """y = 0 holds at (1, 0), (-1, 0), and x + y = 1 at (1, 0), (0, 1): three points, two on each."""
     x, y = sympy.symbols("x y")
     result = classified(sympy.Integer(1), y * (x + y - 1))
-    found = result.of(RI | IO)
+    found = result[RI | IO]
     assert found.points == 3
     assert len({(w.coordinates["x"], w.coordinates["y"]) for w in found.witnesses}) == 3
     assert [locus.points for locus in result.loci] == [2, 2]

@@ -24,7 +24,7 @@ def test_a_class_that_is_open_may_be_a_piece_by_itself() -> None:
     mechanism = load(Path(__file__).parent.parent / "cases" / "three-crank-coupler-rate.toml")
     result = classify(mechanism, cache=False)
     assert [piece.dimension for piece in result.configuration_space] == [1]
-    still = result.of(T.RI | T.IO)
+    still = result[T.RI | T.IO]
     left = replace(still, verdict=Verdict.undecided(LATE), extent=Extent(open=LATE), pieces=())
     classes = [left if c is still else c for c in result.classes]
     pieces = [p for c in classes for p in c.pieces]

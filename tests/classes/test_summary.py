@@ -113,7 +113,7 @@ def test_nothing_open_sounds_decided(changed: dict[str, dict[str, object]], kind
 
 
 def test_parts_that_are_open_are_said() -> None:
-    first: ClassResult = crank_rocker().of(T.RI | T.IO)
+    first: ClassResult = crank_rocker()[T.RI | T.IO]
     part = replace(first.pieces[0], verdict=Verdict.undecided(LATE), witnesses=())
     found = with_classes(c1={"unsure": (part,)})
     assert answer(found, T.IO) == "at least 4 configurations (proven); parts of class 1 are open"

@@ -29,9 +29,9 @@ def test_list_shows_kind_size_source_and_classes(capsys: pytest.CaptureFixture[s
     assert all(m["source"] for m in listed.values())
     assert main(["list"]) == 0
     rows = capsys.readouterr().out.splitlines()
-    (row,) = (line for line in rows if line.startswith("zlatanov-2dof "))
-    assert "planar, 2 loops" in row
-    assert " 1 2 3 4 " in row
+    (row,) = (line for line in rows if line.startswith("zlatanov-2dof:"))
+    assert row == "zlatanov-2dof: planar, 2 loops, N = 8, n = 2; classes 1 2 3 4"
+    assert any("Zlatanov, Fenton, Benhabib" in line for line in rows)
 
 
 def test_pages_and_index(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

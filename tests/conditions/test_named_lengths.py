@@ -53,8 +53,8 @@ def test_with_the_values_put_in_it_is_a_multiple_of_the_polynomial_in_numbers(na
         named = lengths.of(factor.polynomial)
         assert named is not None
         values = {sympy.Symbol(n): sympy.Rational(str(v)) for n, v in lengths.values.items()}
-        own = factor.polynomial.ring.to_sympy(factor.polynomial)
-        ratio = sympy.cancel(named.ring.to_sympy(named).subs(values) / own)
+        own = factor.polynomial.to_sympy()
+        ratio = sympy.cancel(named.to_sympy().subs(values) / own)
         assert ratio.is_Rational
         assert ratio != 0
 

@@ -105,7 +105,7 @@ def test_each_answer_and_each_certainty_has_a_row() -> None:
     assert {f"`verdict` ({answer})" for answer in Answer} <= claimed
 
 
-NAMED = {"witnesses", "variables", "joints", "rates", "constants", "lengths", "L"}
+NAMED = {"witnesses", "witness_numbers", "variables", "joints", "rates", "constants", "lengths", "L"}
 """Fields that are tables of the mechanism's own names."""
 
 
@@ -131,6 +131,7 @@ def outputs() -> dict[str, Any]:
     dead = {"points": {"B": [1, 0], "C": [4, 0]}}
     return {
         "classify": classification_data(classify(mechanism, cache=False)),
+        "rows": classify(mechanism, cache=False).table(),
         "solve": solution_data("", solve(mechanism, "5", "i", cache=False)),
         "conditions": conditions_data("", conditions(equation)),
         "check": mobility_data("", equation, check_mobility(equation)),
@@ -138,6 +139,6 @@ def outputs() -> dict[str, Any]:
     }
 
 
-@pytest.mark.parametrize("command", ["classify", "solve", "conditions", "check", "at"])
+@pytest.mark.parametrize("command", ["classify", "rows", "solve", "conditions", "check", "at"])
 def test_each_field_of_the_output_has_a_row(command: str) -> None:
     assert set(keys(outputs()[command])) <= FIELDS.keys()

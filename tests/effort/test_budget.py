@@ -8,6 +8,7 @@ import time
 import pytest
 
 from singsym.effort import progress
+from singsym.effort.attempts import attempt
 from singsym.effort.budget import Budget, BudgetExceeded, Cancelled, current
 from singsym.effort.verdict import Answer, Verdict, weakest
 
@@ -70,3 +71,28 @@ def test_progress_goes_to_the_sink_in_force() -> None:
         progress.report("decompose", "BCD", 1, 5)
     progress.report("nobody listens")
     assert [str(e) for e in events] == ["decompose: BCD (1 of 5)"]
+
+
+def test_work_that_says_nothing_new_can_be_ended_all_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The last event comes again, not more often than that; what the sink raises is no open question."""
+    seen: list[progress.Event] = []
+
+    def sink(event: progress.Event) -> None:
+        seen.append(event)
+        if len(seen) == 3:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(progress, "BEAT", 0.02)
+    started = time.monotonic()
+
+    def work() -> None:
+        progress.beat()
+        progress.report("search", done=1, total=2)
+        while time.monotonic() < started + 10:
+            with attempt("a proof"):
+                current().check("a long loop")
+
+    with progress.to(sink), pytest.raises(KeyboardInterrupt):
+        work()
+    assert seen == [progress.Event("search", "", 1, 2)] * 3
+    assert 0.04 <= time.monotonic() - started < 5

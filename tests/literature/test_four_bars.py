@@ -48,7 +48,7 @@ def test_the_output_choice_matters(classified: Classified) -> None:
     found = {c.singularity_class.name: c for c in result.classes if c.verdict.is_yes}
     in_line = [w for c in found.values() for w in c.witnesses if abs(_abc(w.floats())) < 1e-9]
     assert in_line == []
-    follower = classified(four_bar("4", "1", "7/2", "3")).of(SingularityType.RI | SingularityType.IO)
+    follower = classified(four_bar("4", "1", "7/2", "3"))[SingularityType.RI | SingularityType.IO]
     assert [abs(_abc(w.floats())) < 1e-9 for w in follower.witnesses] == [True] * 4
 
 
@@ -72,14 +72,14 @@ def test_slider_crank_both_ways(occurring: Occurring, classified: Classified) ->
     backward = replace(forward, inputs=("P",), outputs=(JointRate("A"),))
     assert occurring(forward) == {STILL: 2}
     assert occurring(backward) == {DEAD: 2}
-    witnesses = classified(forward).of(SingularityType.RI | SingularityType.IO).witnesses
+    witnesses = classified(forward)[SingularityType.RI | SingularityType.IO].witnesses
     assert sorted(w.floats()["d_P"] for w in witnesses) == [2, 4]
 
 
 def test_crank_rocker_limits_by_the_law_of_cosines(classified: Classified) -> None:
     """Row 1: the follower's limits are where AC is b + a or b - a, at an angle known from triangle ADC."""
     result = classified(four_bar("4", "1", "7/2", "3"))
-    found = result.of(SingularityType.RI | SingularityType.IO)
+    found = result[SingularityType.RI | SingularityType.IO]
     reached = sorted(sqrt(q["Cx"] ** 2 + q["Cy"] ** 2) for q in (w.floats() for w in found.witnesses))
     assert all(isclose(x, y, abs_tol=1e-12) for x, y in zip(reached, [2.5, 2.5, 4.5, 4.5], strict=True))
     for w in found.witnesses:

@@ -168,13 +168,13 @@ def at_witness(result: Classification) -> None:
 
 def test_crank_and_slotted_lever_dead_centres(classified: Classified) -> None:
     """AB perpendicular to BD: the lever is tangent to the crank's circle, its length sqrt(g^2 - r^2)."""
-    found = classified(load("crank-slotted-lever")).of(SingularityType.RI | SingularityType.IO)
+    found = classified(load("crank-slotted-lever"))[SingularityType.RI | SingularityType.IO]
     assert [w.floats()["d_P"] for w in found.witnesses] == pytest.approx([sqrt(3)] * 2)
 
 
 def test_whitworth_strokes(classified: Classified) -> None:
     """The ram stands still where D, E, F are in line, at EF + DE and EF - DE from D: 4 and 2."""
-    found = classified(load("whitworth")).of(SingularityType.RI | SingularityType.IO)
+    found = classified(load("whitworth"))[SingularityType.RI | SingularityType.IO]
     assert sorted(w.floats()["d_Q"] for w in found.witnesses) == pytest.approx([2, 4])
 
 
@@ -249,7 +249,7 @@ def test_spherical_5r(classified: Classified) -> None:
     result = classified(load("spherical-5r"))
     T = SingularityType
     for kinds, axes in ((T.RO | T.II, "BCD"), (T.RI | T.IO, "ACE")):
-        for w in result.of(kinds).witnesses:
+        for w in result[kinds].witnesses:
             q = w.floats()
             fixed = {"A": (0.0, 0.0, 1.0), "E": (1.0, 0.0, 0.0)}
             rows = [fixed.get(a) or [q[f"{a}{i}"] for i in "xyz"] for a in axes]
@@ -320,7 +320,7 @@ def test_peaucellier() -> None:
 
 def test_stephenson_output_rests_by_the_pole(classified: Classified) -> None:
     """E moves about the coupler's pole, where AB meets CD; G rests where EF passes it (Kennedy's theorem)."""
-    found = classified(load("stephenson-six-bar")).of(SingularityType.RI | SingularityType.IO)
+    found = classified(load("stephenson-six-bar"))[SingularityType.RI | SingularityType.IO]
     assert found.points == 6
     for w in found.witnesses:
         at = {p: np.array([float(w.points[f"{p}.x"]), float(w.points[f"{p}.y"]), 1.0]) for p in "ABCDEF"}

@@ -49,7 +49,7 @@ def test_components_of_the_five_curves(classified: Classified) -> None:
 
 def test_where_the_twelve_points_are(classified: Classified) -> None:
     """The erratum: with c the cosine of DC's angle, 4 points each at c = -1/4, -7/20, -5/16, exactly."""
-    twelve = classified(load("zlatanov-2dof")).of(T.RI | T.RO | T.II | T.IO)
+    twelve = classified(load("zlatanov-2dof"))[T.RI | T.RO | T.II | T.IO]
     expected = [Fraction(-1, 4), Fraction(-7, 20), Fraction(-5, 16)]
     counted: Counter[Fraction] = Counter()
     for piece in twelve.pieces:
@@ -66,7 +66,7 @@ def test_where_the_twelve_points_are(classified: Classified) -> None:
 
 def test_which_lines_meet_at_the_twelve_points(classified: Classified) -> None:
     """The erratum: ABC with CGF at -1/4, CGF with CDG at -7/20, CGF with EFG at -5/16; none with BCD."""
-    twelve = classified(load("zlatanov-2dof")).of(T.RI | T.RO | T.II | T.IO)
+    twelve = classified(load("zlatanov-2dof"))[T.RI | T.RO | T.II | T.IO]
     seen = {}
     for w in twelve.witnesses:
         at = {name: (float(w.points[f"{name}.x"]), float(w.points[f"{name}.y"])) for name in "ABCDEFG"}

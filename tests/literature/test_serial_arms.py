@@ -22,7 +22,7 @@ Classified = Callable[[Mechanism], Classification]
 def factors(name: str) -> list[sympy.Expr]:
     """The factors of condition (5) as expressions in the joints' cosines and sines."""
     found = conditions(velocity_equation(load(name)))["5"].factors
-    return [f.polynomial.ring.to_sympy(f.polynomial) for f in found]
+    return [f.polynomial.to_sympy() for f in found]
 
 
 def c(*joints: int) -> sympy.Expr:

@@ -104,7 +104,7 @@ def test_a_number_of_points_that_is_open(form: str) -> None:
 @pytest.mark.parametrize("form", FORMS)
 def test_parts_of_a_class_that_may_have_no_point(form: str) -> None:
     """Its locus is said with the class, and once that this is open, although its numbers are known."""
-    first = dead_centres().of(SingularityType.RI | SingularityType.IO).pieces[0]
+    first = dead_centres()[SingularityType.RI | SingularityType.IO].pieces[0]
     part = replace(first, verdict=Verdict.undecided(LATE), witnesses=())
     found = with_class(unsure=(part, part))
     assert list(found.open_questions()) == [("occurrence of parts of class 1", LATE)]

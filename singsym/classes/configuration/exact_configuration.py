@@ -33,10 +33,8 @@ def exact_values(equation: VelocityEquation, wanted: Sequence[Target]) -> dict[s
     known: dict[sympy.Symbol, sympy.Expr] = {}
     for constant in ring.constants:
         known[sympy.Symbol(constant.name)] = constant.expression
-    waiting = [
-        ring.to_sympy(t.polynomial) - t.value * ring.to_sympy(t.scale) for t in wanted if t.value.is_number
-    ]
-    waiting += [ring.to_sympy(e) for e in equation.space.equations]
+    waiting = [t.polynomial.to_sympy() - t.value * t.scale.to_sympy() for t in wanted if t.value.is_number]
+    waiting += [e.to_sympy() for e in equation.space.equations]
     progress = True
     while progress:
         progress = False

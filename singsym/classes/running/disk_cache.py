@@ -11,6 +11,7 @@ import hashlib
 import json
 import logging
 import os
+import re
 import sys
 import tempfile
 import time
@@ -32,6 +33,7 @@ _LARGEST = 1 << 28
 """Longer entries, in bytes, are neither written nor read."""
 _ABANDONED_SECONDS = 3600.0
 """A part of an entry that is older belongs to a process that was killed."""
+_ENTRY = re.compile(r"[0-9a-f]{64}\.json\.gz")
 _LIBRARIES = ("python-flint", "numpy", "sympy", "mpmath", "networkx")
 """What results depend on beside the engines."""
 
@@ -122,6 +124,21 @@ class Cache:
                 self._write(entry.path, gzip.compress(text, compresslevel=5, mtime=0))
         except Exception as error:
             self._give_up(error)
+
+    def sizes(self) -> list[int]:
+        """The sizes of all entries in bytes, of whatever version of singsym; raises `OSError`."""
+        return [path.stat().st_size for path in self._files()]
+
+    def clear(self) -> int:
+        """Take all entries away, and say how many there were; raises `OSError`."""
+        files = self._files()
+        for path in files:
+            path.unlink(missing_ok=True)
+        return len(files)
+
+    def _files(self) -> list[Path]:
+        """The files that are entries by their names; nothing else in the folder is singsym's."""
+        return sorted(p for p in self.folder.glob("*.json.gz") if _ENTRY.fullmatch(p.name))
 
     def _write(self, path: Path, data: bytes) -> None:
         if not self.prepared:

@@ -8,6 +8,8 @@ memo, but found equal by value: equal values have equal texts.
 from __future__ import annotations
 
 import dataclasses
+import hashlib
+import re
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from contextlib import suppress
@@ -56,6 +58,25 @@ def decode(data: Any, hint: Any) -> Any:
     if not isinstance(data, dict) or set(data) != {"shared", "value"}:
         raise Mismatch("expected shared values and a value")
     return codec(hint).read(data["value"], Reader(_list(data["shared"])))
+
+
+def shape(hint: Any) -> str:
+    """A digest of all records that a value of the type `hint` may hold: their fields and types, in order.
+
+    What was written under another one is not to be read: places in lists would mean other things.  Where in
+    the program a type is does not matter.
+    """
+    found: dict[type, str] = {}
+    waiting = [hint]
+    while waiting:
+        part = waiting.pop()
+        waiting += get_args(FORMS[part].hint if part in FORMS else part)
+        if isinstance(part, type) and part not in FORMS and part not in found and _fields(part):
+            hints = get_type_hints(part)
+            found[part] = f"{part.__qualname__}: {[(name, hints[name]) for name in _fields(part)]}"
+            waiting += [hints[name] for name in _fields(part)]
+    text = re.sub(r"\b(\w+\.)+", "", "\n".join(sorted(found.values())))
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 class Writer:

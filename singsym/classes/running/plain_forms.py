@@ -1,6 +1,7 @@
-"""Numbers and polynomials in plain form, as `json_codec` writes them.
+"""Numbers, polynomials and mechanisms in plain form, as `json_codec` writes them.
 
-Source: FLINT (https://flintlib.org), whose numbers are read and written as text of any length.
+Source: FLINT (https://flintlib.org), whose numbers are read and written as text of any length; a mechanism is
+the text of its file.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from typing import Any
 
 from flint import fmpq, fmpz
 
+from singsym.mechanism import Mechanism, dumps, loads
 from singsym.polynomials import Polynomial, Ring
 
 
@@ -38,9 +40,18 @@ def _polynomial(plain: tuple[Ring, str, str]) -> Polynomial:
     return Polynomial(ring, ring.context.from_dict(terms))
 
 
+def _file(mechanism: Mechanism) -> tuple[str, str]:
+    """Where a mechanism is from, and its file; raises `ValueError` where that would say something else."""
+    text = dumps(mechanism)
+    if loads(text, mechanism.origin) != mechanism:
+        raise ValueError(f"{mechanism!r} differs from what its file would say")
+    return mechanism.origin, text
+
+
 FORMS: dict[Any, Form] = {
     Fraction: Form(tuple[int, int], lambda q: (q.numerator, q.denominator), lambda pair: Fraction(*pair)),
     fmpz: Form(int, int, fmpz),
     fmpq: Form(str, str, fmpq),
     Polynomial: Form(tuple[Ring, str, str], _plain, _polynomial),
+    Mechanism: Form(tuple[str, str], _file, lambda plain: loads(plain[1], plain[0])),
 }

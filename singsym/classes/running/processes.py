@@ -15,12 +15,12 @@ import signal
 import sys
 import threading
 import traceback
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
-from types import TracebackType
+from types import ModuleType, TracebackType
 from typing import Any
 
 from singsym.elimination.engines.process import kill_all
@@ -51,7 +51,7 @@ class Processes(Executor):
             worker.start()
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """The future of a call; the function must be one of a module."""
+        """The future of a call; the function must be one of a module, not of a script."""
         if self._closed:
             raise RuntimeError("the processes have been shut down")
         future: Future[Any] = Future()
@@ -159,17 +159,14 @@ class _Worker(threading.Thread):
                 raise EOFError
             connection, other = context.Pipe()
             process = context.Process(target=_serve, args=(other,), daemon=True)
-            with other:
+            with other, _without_main():
                 process.start()
             self.process, self.connection = process, connection
         try:
             self.connection.recv_bytes()
         except EOFError:
             if not self.stopped and (code := self._wait() or 0) > 0:
-                raise RuntimeError(
-                    f"a worker process ended with exit code {code} before it began: a script that uses "
-                    'workers must have its own work under `if __name__ == "__main__":`'
-                ) from None
+                raise RuntimeError(f"a worker process ended with exit code {code} before it began") from None
             raise
 
     def _end(self) -> str:
@@ -191,6 +188,17 @@ class _Worker(threading.Thread):
             self.process.kill()
             self.process.join()
             return self.process.exitcode
+
+
+@contextmanager
+def _without_main() -> Iterator[None]:
+    """Processes that are started inside do not run the user's script again, as `multiprocessing` would."""
+    main = sys.modules["__main__"]
+    sys.modules["__main__"] = ModuleType("__main__")
+    try:
+        yield
+    finally:
+        sys.modules["__main__"] = main
 
 
 def _serve(connection: Connection) -> None:

@@ -5,8 +5,9 @@ Source: the Executor interface of Python's `concurrent.futures` (PEP 3148), whic
 
 from __future__ import annotations
 
+import time
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -120,7 +121,8 @@ class Runner:
                         work.put(_Job(place, task, entry))
                     else:
                         arrived.append((place, known))
-                progress.report(stage, done=len(results) + len(arrived), total=len(grown))
+                if grown:
+                    progress.report(stage, done=len(results) + len(arrived), total=len(grown))
                 if not arrived:
                     if results and budget.remaining() == 0.0:
                         work.call_off()
@@ -167,6 +169,21 @@ def _outcome(future: Future[tuple[R, float]]) -> R:
     result, seconds = future.result()
     charge(seconds)
     return result
+
+
+def _first(futures: Collection[Future[Any]], seconds: float | None = None) -> set[Future[Any]]:
+    """Those that are done, as soon as there is one; none where that takes longer.
+
+    Meanwhile progress goes on, so that its sink can end the waiting.
+    """
+    end = None if seconds is None else time.monotonic() + seconds
+    while futures:
+        left = progress.BEAT if end is None else min(progress.BEAT, max(0.0, end - time.monotonic()))
+        done, _ = wait(futures, left, return_when=FIRST_COMPLETED)
+        if done or (end is not None and time.monotonic() >= end):
+            return done
+        progress.beat()
+    return set()
 
 
 def _nothing(result: object) -> tuple[()]:
@@ -219,7 +236,7 @@ class _Queue(Generic[T, R]):
             self.running[self._submitted(self.executor, job.task)] = job
         left = self.budget.time_left()
         patience = None if left is None else left + GRACE + SHARE_OVER * (self.budget.seconds or 0.0)
-        done, _ = wait(self.running, patience, return_when=FIRST_COMPLETED)
+        done = _first(self.running, patience)
         return [
             (job := self.running.pop(future), self._result(job, partial(_outcome, future))) for future in done
         ]

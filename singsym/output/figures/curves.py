@@ -10,6 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
@@ -18,7 +19,7 @@ from singsym.effort.budget import Budget
 from singsym.kinematics.placement import JointValue
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import JointRate
-from singsym.output.figures.style import DASHES, INK, PALE, SERIES, Floats, Picture, canvas
+from singsym.output.figures.style import DASHES, INK, PALE, SERIES, Floats, Picture, entitle, paper
 from singsym.polynomials import Polynomial
 from singsym.polynomials.compiled_map import CompiledMap
 from singsym.polynomials.gauss_newton import project
@@ -178,11 +179,14 @@ def plot_curves(
     classification: Classification,
     plane: str | tuple[str, str] = "inputs",
     traces: Sequence[Trace] | None = None,
+    *,
+    axes: Any = None,
 ) -> Picture:
     """The singularity curves of a mechanism in a plane, with the points where classes meet.
 
     plane: "inputs", "outputs", or two labels: joint columns, `B.x` of named points, configuration variables.
     traces: from `trace_loci`, where they are known already.
+    axes: of matplotlib, to draw on; None: those of a new figure.
     Raises `ValueError` where the plane is not known or there are no curves.
     """
     axes_of = {"inputs": input_plane, "outputs": output_plane}
@@ -193,8 +197,8 @@ def plot_curves(
     if not traces:
         raise ValueError("no locus is a curve that could be traced: there is nothing to draw")
     across, up = (Coordinate(label, classification.equation) for label in chosen)
-    figure = canvas(6.4, 5.6)
-    axes = figure.add_subplot()
+    alone = axes is None
+    axes = paper(axes, 6.4, 5.6)
     for i, trace in enumerate(traces):
         style = {"color": SERIES[i % len(SERIES)], "ls": DASHES[i % len(DASHES)], "lw": 1.7}
         lines = [arc for component in trace.components for arc in component]
@@ -212,11 +216,12 @@ def plot_curves(
         style = {"mfc": "none", "mec": INK, "mew": 1.3, "ls": "none", "zorder": 5}
         axes.plot(across.at(points), up.at(points), shape, ms=6.5, label=label, **style)
     _finish(axes, across, up)
+    _explain(axes, alone=alone)
     where = {"inputs": "over the inputs", "outputs": "over the output"}.get(str(plane), "")
     title = f"Singularity curves {where}".strip()
-    figure.suptitle(title, fontsize=12, color=INK)
+    entitle(axes, title, alone=alone)
     described = "; ".join(t.label for t in traces)
-    return Picture(figure, title, f"{title}: {chosen[0]} across, {chosen[1]} up. Curves: {described}")
+    return Picture(axes.figure, title, f"{title}: {chosen[0]} across, {chosen[1]} up. Curves: {described}")
 
 
 def _no_plane(classification: Classification, plane: object) -> str:
@@ -246,12 +251,9 @@ def _wrapped(values: Floats, is_angle: bool) -> list[Floats]:
     return [whole - 2 * np.pi * turns for turns in range(first - 1, last + 2)]
 
 
-def _finish(axes: object, across: Coordinate, up: Coordinate) -> None:
-    """Labels, ticks in multiples of pi for angles, the legend below."""
+def _finish(axes: Any, across: Coordinate, up: Coordinate) -> None:
+    """Labels, and ticks in multiples of pi for angles."""
     ticks = [(-np.pi, "−π"), (-np.pi / 2, "−π/2"), (0, "0"), (np.pi / 2, "π/2"), (np.pi, "π")]
-    from matplotlib.axes import Axes
-
-    assert isinstance(axes, Axes)
     for coordinate, axis, limits in ((across, axes.xaxis, axes.set_xlim), (up, axes.yaxis, axes.set_ylim)):
         if coordinate.is_angle:
             axis.set_ticks([t for t, _ in ticks], [name for _, name in ticks])
@@ -264,6 +266,12 @@ def _finish(axes: object, across: Coordinate, up: Coordinate) -> None:
     axes.tick_params(colors=INK)
     for spine in axes.spines.values():
         spine.set_color(PALE)
-    figure = axes.figure
+
+
+def _explain(axes: Any, *, alone: bool) -> None:
+    """The legend below the axes."""
     look = {"fontsize": 8.5, "handlelength": 3.4, "frameon": False, "labelcolor": INK}
-    figure.legend(loc="outside lower center", ncols=2, **look)
+    if alone:
+        axes.figure.legend(loc="outside lower center", ncols=2, **look)
+    else:
+        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.15), **look)

@@ -29,11 +29,13 @@ def plot_mechanism(
     *,
     equation: VelocityEquation | None = None,
     seed: int = 0,
+    axes: Any = None,
 ) -> Picture:
     """A mechanism drawn at a configuration.
 
     coordinates: the configuration variables by name (as in `Configuration.coordinates`); None: some
         configuration, found numerically from `seed`.
+    axes: of matplotlib, to draw on; None: those of a new figure.
     Raises `ValueError` where coordinates are missing or no configuration was found.
 
     >>> from singsym.mechanism import load
@@ -45,22 +47,31 @@ def plot_mechanism(
     stage = Stage.of(mechanism, equation)
     point = stage.sample(seed) if coordinates is None else stage.vector(coordinates)
     title = mechanism.title or mechanism.name
-    return _drawn(stage, point, (), title, f"{title}, {_words(mechanism)}")
+    return _drawn(stage, point, (), title, f"{title}, {_words(mechanism)}", axes)
 
 
 def plot_class(
-    classification: Classification, result: ClassResult | SingularityType, witness: int = 0
+    classification: Classification,
+    result: ClassResult | SingularityType,
+    witness: int = 0,
+    *,
+    axes: Any = None,
 ) -> Picture:
     """A class at one of its certified configurations, with its null motions as arrows.
 
+    axes: of matplotlib, to draw on; None: those of a new figure.
     Raises `ValueError` where the class has no such configuration, or no mechanism was given.
     """
     from singsym.output.figures.motions import drawn_motions, motions_at
 
     stage = _stage(classification)
-    found = classification.of(result) if isinstance(result, SingularityType) else result
+    found = classification[result] if isinstance(result, SingularityType) else result
     shown = [(w, piece) for piece in found.pieces for w in piece.witnesses]
-    if witness >= len(shown):
+    if not shown:
+        fact = "does not occur" if found.verdict.is_no else "has no known configuration"
+        which = f"class {found.singularity_class.number} ({found.types})"
+        raise ValueError(f"{which} {fact}: {found.verdict.reason}")
+    if not 0 <= witness < len(shown):
         raise ValueError(
             f"class {found.singularity_class}: {len(shown)} configurations known, no number {witness + 1}"
         )
@@ -68,7 +79,7 @@ def plot_class(
     point = stage.vector(configuration.coordinates)
     motions = drawn_motions(motions_at(stage.equation, point, piece.defects))
     title = f"Class {found.singularity_class.number} ({found.singularity_class.name})"
-    return _drawn(stage, point, motions, title, _class_words(stage, title, motions))
+    return _drawn(stage, point, motions, title, _class_words(stage, title, motions), axes)
 
 
 def plot_configuration(
@@ -77,8 +88,12 @@ def plot_configuration(
     defects: Defects,
     *,
     equation: VelocityEquation | None = None,
+    axes: Any = None,
 ) -> Picture:
-    """A mechanism at a configuration with these rank defects, its null motions as arrows."""
+    """A mechanism at a configuration with these rank defects, its null motions as arrows.
+
+    axes: of matplotlib, to draw on; None: those of a new figure.
+    """
     from singsym.output.figures.motions import drawn_motions, motions_at
     from singsym.output.figures.scene import Stage
 
@@ -86,7 +101,7 @@ def plot_configuration(
     point = stage.vector(coordinates)
     motions = drawn_motions(motions_at(stage.equation, point, defects))
     title = str(defects.types)
-    return _drawn(stage, point, motions, title, _class_words(stage, title, motions))
+    return _drawn(stage, point, motions, title, _class_words(stage, title, motions), axes)
 
 
 def _stage(classification: Classification) -> Stage:
@@ -97,8 +112,10 @@ def _stage(classification: Classification) -> Stage:
     return Stage.of(classification.mechanism, classification.equation)
 
 
-def _drawn(stage: Stage, point: Floats, motions: Sequence[Motion], title: str, description: str) -> Picture:
-    from singsym.output.figures.style import INK, canvas
+def _drawn(
+    stage: Stage, point: Floats, motions: Sequence[Motion], title: str, description: str, axes: Any
+) -> Picture:
+    from singsym.output.figures.style import entitle, paper
 
     scene = stage.scene(point)
     moving: list[tuple[Motion, Velocities]] = [(m, stage.velocities(point, m.rates)) for m in motions]
@@ -111,30 +128,41 @@ def _drawn(stage: Stage, point: Floats, motions: Sequence[Motion], title: str, d
         view = viewpoint(scene)
         scene = seen(scene, view)
         moving = [(m, velocities_seen(v, view)) for m, v in moving]
-    figure = canvas(5.4, _height(scene))
-    axes = figure.add_subplot()
+    alone = axes is None
+    axes = paper(axes, 5.4, _height(scene))
     axes.set_aspect("equal")
     axes.axis("off")
     draw(axes, scene, moving)
-    figure.suptitle(_wrapped(title), fontsize=12, color=INK)
-    _write_below(figure, stage.mechanism, motions)
-    return Picture(figure, title, description)
+    entitle(axes, _wrapped(title), alone=alone)
+    _write_below(axes, stage.mechanism, motions, alone=alone)
+    return Picture(axes.figure, title, description)
 
 
-def _write_below(figure: Any, mechanism: Mechanism, motions: Sequence[Motion]) -> None:
+def _write_below(axes: Any, mechanism: Mechanism, motions: Sequence[Motion], *, alone: bool) -> None:
     """What the arrows are, and the inputs and the output in the colours that they are drawn in."""
     from singsym.output.figures.motions import WORDS
     from singsym.output.figures.style import INPUT, MOTION, OUTPUT
 
-    line = 0.22 / figure.get_figheight()
     rows = len(motions) + 1
-    figure.get_layout_engine().set(rect=(0, line * rows, 1, 1 - line * rows))
+    figure = axes.figure
+    line = 0.22 / figure.get_figheight() if alone else 0.0
+    if alone:
+        figure.get_layout_engine().set(rect=(0, line * rows, 1, 1 - line * rows))
+
+    def write(words: str, row: int, colour: str, side: str = "left") -> None:
+        """One line, rows counted from the lowest: at the foot of the figure, or of the axes."""
+        if alone:
+            x = 0.02 if side == "left" else 0.98
+            figure.text(x, line * (row + 0.3), words, fontsize=9, color=colour, ha=side)
+        else:
+            corner, below = (float(side == "right"), 0), (0, -12 * (rows - row))
+            look = {"fontsize": 8, "color": colour, "ha": side, "annotation_clip": False}
+            axes.annotate(words, corner, below, "axes fraction", "offset points", **look)
+
     for row, motion in enumerate(reversed(motions), 1):
-        words = f"→ {WORDS[motion.type]}"
-        figure.text(0.02, line * (row + 0.3), words, fontsize=9, color=MOTION[str(motion.type)])
-    inputs, outputs = _inputs(mechanism), _outputs(mechanism)
-    figure.text(0.02, 0.3 * line, inputs, fontsize=9, color=INPUT)
-    figure.text(0.98, 0.3 * line, outputs, fontsize=9, color=OUTPUT, ha="right")
+        write(f"→ {WORDS[motion.type]}", row, MOTION[str(motion.type)])
+    write(_inputs(mechanism), 0, INPUT)
+    write(_outputs(mechanism), 0, OUTPUT, "right")
 
 
 def _inputs(mechanism: Mechanism) -> str:

@@ -66,6 +66,19 @@ class Picture:
         return self.svg()
 
 
+def paper(axes: Any, width: float, height: float) -> Any:
+    """The axes to draw on: those given, or of None the only ones of a new figure of this size in inches."""
+    return canvas(width, height).add_subplot() if axes is None else axes
+
+
+def entitle(axes: Any, title: str, *, alone: bool) -> None:
+    """A title over axes; alone: whether they are the only ones of a figure of their own."""
+    if alone:
+        axes.figure.suptitle(title, fontsize=12, color=INK)
+    else:
+        axes.set_title(title, fontsize=11, color=INK)
+
+
 def canvas(width: float, height: float) -> Any:
     """An empty figure of this size in inches, apart from pyplot's global state."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg

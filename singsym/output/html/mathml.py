@@ -37,7 +37,7 @@ def polynomial(p: Polynomial, longest: int = LONGEST) -> str:
     ring = p.ring
     cut = len(p) > longest
     shown = ring.from_dict(dict(p.terms()[:longest])) if cut else p
-    text = str(mathml(ring.to_sympy(shown).xreplace(_indexed(shown)), printer="presentation"))
+    text = str(mathml(shown.to_sympy().xreplace(_indexed(shown)), printer="presentation"))
     text = text.replace("<mo>-</mo>", "<mo>−</mo>").replace("<mn>-", "<mn>−")
     rest = f"<mo>+</mo><mtext>… ({len(p) - longest} more terms)</mtext>" if cut else ""
     return text + rest

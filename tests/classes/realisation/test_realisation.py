@@ -25,7 +25,7 @@ from singsym.varieties.real.system import RealSystem
 
 def test_an_extended_joint_has_its_angle_and_a_small_error() -> None:
     """Where A, B, C are in line with B between, B is straight; with B outside it is folded by pi."""
-    dead = classify(load("slider-crank"), cache=False).of(T.RI | T.IO)
+    dead = classify(load("slider-crank"), cache=False)[T.RI | T.IO]
     assert len(dead.witnesses) == 2
     for witness in dead.witnesses:
         assert float(witness.radius) < 1e-12

@@ -104,30 +104,33 @@ def test_no_call_after_the_end() -> None:
         executor.submit(square, 1)
 
 
-SCRIPT = """
+MODULE = """
 import os, sys, time
-from singsym.classes.running.processes import Processes
 
 def busy(path, holding):
     open(os.path.join(path, str(os.getpid())), "w").close()
     if holding:
         return bool(3 ** (10 ** 9))
     time.sleep(600)
+"""
 
-def main():
-    with Processes(2) as executor:
-        for future in [executor.submit(busy, sys.argv[1], sys.argv[2] == "holding") for _ in range(2)]:
-            future.result()
+SCRIPT = """
+import sys
+from busyness import busy
+from singsym.classes.running.processes import Processes
 
-{guard}
-main()
+print("begun", flush=True)
+with Processes(2) as executor:
+    for future in [executor.submit(busy, sys.argv[1], sys.argv[2] == "holding") for _ in range(2)]:
+        future.result()
 """
 
 
-def script(folder: Path, guard: str) -> list[str]:
-    """The command of a program with two busy workers."""
+def script(folder: Path) -> list[str]:
+    """The command of a program with two busy workers, without a guard of its own work."""
     path = folder / "program.py"
-    path.write_text(SCRIPT.replace("{guard}\n", guard))
+    path.write_text(SCRIPT)
+    (folder / "busyness.py").write_text(MODULE)
     (folder / "busy").mkdir()
     return [sys.executable, str(path), str(folder / "busy")]
 
@@ -139,7 +142,7 @@ def test_nothing_outlives_a_killed_parent(tmp_path: Path, ending: str, work: str
     """holding: a call that lets no other thread of Python run, as those of FLINT do."""
     if work == "holding" and sys.platform != "linux":
         pytest.skip("only Linux ends processes in the midst of such a call")
-    command = script(tmp_path, 'if __name__ == "__main__":\n    ')
+    command = script(tmp_path)
     program = subprocess.Popen([*command, work], start_new_session=True)
     try:
         while len(list((tmp_path / "busy").iterdir())) < 2:
@@ -165,7 +168,14 @@ def alive(number: int) -> bool:
         return False
 
 
-def test_a_script_that_is_run_again_by_its_workers_is_told_so(tmp_path: Path) -> None:
-    done = subprocess.run([*script(tmp_path, ""), "sleeping"], capture_output=True, text=True, timeout=120)
-    assert done.returncode == 1
-    assert 'if __name__ == "__main__":' in done.stderr.splitlines()[-1]
+def test_a_script_without_a_guard_is_run_once(tmp_path: Path) -> None:
+    """Its workers do not run it again, and classify a mechanism as one process does."""
+    path = tmp_path / "program.py"
+    path.write_text(
+        "import singsym\n"
+        "print('begun')\n"
+        "result = singsym.classify(singsym.load('slider-crank'), workers=2, cache=False)\n"
+        "print(result[1].points)\n"
+    )
+    done = subprocess.run([sys.executable, str(path)], capture_output=True, text=True, timeout=120)
+    assert (done.returncode, done.stdout.split(), done.stderr) == (0, ["begun", "2"], "")

@@ -60,7 +60,7 @@ def test_a_feasible_motion_keeps_links_rigid_and_joints_together(name: str) -> N
 
 def test_the_passive_motion_of_fig_2_moves_only_the_pin_between_b_d_and_g(linkage: Classification) -> None:
     stage = Stage.of(load("zlatanov-2dof"), linkage.equation)
-    found = linkage.of(T.RPM | T.II | T.IO)
+    found = linkage[T.RPM | T.II | T.IO]
     point = stage.vector(found.witnesses[0].coordinates)
     (motion,) = drawn_motions(motions_at(stage.equation, point, found.pieces[0].defects))
     assert motion.type is T.RPM
@@ -71,7 +71,7 @@ def test_the_passive_motion_of_fig_2_moves_only_the_pin_between_b_d_and_g(linkag
 
 def test_fig_4_moves_the_elbow_of_the_input_leg_with_the_output_at_rest(linkage: Classification) -> None:
     stage = Stage.of(load("zlatanov-2dof"), linkage.equation)
-    found = linkage.of(T.RI | T.IO)
+    found = linkage[T.RI | T.IO]
     piece = next(p for p in found.pieces if str(p.path[0]) == "By*Cx - Bx*Cy")
     point = stage.vector(piece.witnesses[0].coordinates)
     motions = motions_at(stage.equation, point, piece.defects)
@@ -185,14 +185,14 @@ def test_files_and_configurations_that_are_not_there_are_refused(linkage: Classi
         plot_mechanism(load("fourbar")).save("figure.docx")
     with pytest.raises(ValueError, match="missing"):
         plot_mechanism(load("fourbar"), {"Bx": 1})
-    with pytest.raises(ValueError, match="configurations known"):
+    with pytest.raises(ValueError, match=r"class 12 .* does not occur"):
         plot_class(linkage, T.IIM | T.RPM)
 
 
 def test_an_input_is_seen_where_another_joint_lies_on_it() -> None:
     """Sarrus, both legs folded: the input A1, in orange, is drawn after A3 at the same place."""
     result = classify(load("sarrus"), cache=False)
-    found = result.of(T.RI | T.RO | T.RPM | T.IIM)
+    found = result[T.RI | T.RO | T.RPM | T.IIM]
     (axes,) = plot_class(result, found).figure.axes
     fills = {p.get_facecolor(): p.get_zorder() for p in sorted(axes.patches, key=lambda p: p.get_zorder())}
     assert fills[to_rgba(INPUT)] > fills[to_rgba(PAPER)]
