@@ -116,9 +116,12 @@ def _points(equations: Equations) -> Known[tuple[BoxPoint, ...]]:
 
 
 def without_given(equations: Equations) -> tuple[Equations, list[Substitution]]:
-    """Equations in the variables that no equation of first degree gives, and what these give."""
+    """Equations in the variables that no equation of first degree gives, and what these give.
+
+    Each gives the variable that is in the fewest others.
+    """
     left, given = equations, list[Substitution]()
-    while (step := next(filter(None, map(_given_by, left)), None)) is not None:
+    while (step := next(filter(None, (_given_by(p, left) for p in left)), None)) is not None:
         left = tuple(p for p in step.apply(left) if p)
         given.append(step)
     ring, names = equations[0].ring, {step.name for step in given}
@@ -126,11 +129,12 @@ def without_given(equations: Equations) -> tuple[Equations, list[Substitution]]:
     return tuple(map(own.convert, left)), given
 
 
-def _given_by(equation: Polynomial) -> Substitution | None:
+def _given_by(equation: Polynomial, equations: Equations) -> Substitution | None:
     constants = {c.name for c in equation.ring.constants}
     if equation.total_degree != 1 or constants.intersection(equation.variables):
         return None
-    return solved_variable(equation)
+    rarest = min(equation.variables, key=lambda name: sum(p.degree(name) > 0 for p in equations))
+    return solved_variable(equation, (rarest,))
 
 
 def with_values(point: BoxPoint, given: Sequence[Substitution], ring: Ring) -> BoxPoint:

@@ -32,3 +32,15 @@ def test_a_component_in_an_exclusion_does_not_count() -> None:
 def test_a_curve_without_dyads() -> None:
     with pytest.raises(Undecided, match="no dyads"):
         components_off((C**2 + S**2 - 1, X - C, Y - S, Z - C * S), (), Budget())
+
+
+def test_circles_over_two_points_and_what_follows_from_equations() -> None:
+    """x = sqrt(2) or -sqrt(2), u^2 + v^2 = 1 over each, w = x + u: two circles.
+
+    (w - u)^2 = 2 follows from the equations, and holds on both; w = u + x + v only where v = 0."""
+    ring = Ring(("x", "u", "v", "w"))
+    x, u, v, w = ring.gens
+    curve = (x**2 - 2, u**2 + v**2 - 1, w - x - u)
+    assert components_off(curve, (), Budget()) == 2
+    assert components_off(curve, (((x + 5) * (x**2 - 2),),), Budget()) == 0
+    assert components_off(curve, ((w - u - x - v,),), Budget()) == 2

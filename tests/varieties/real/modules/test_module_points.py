@@ -6,7 +6,7 @@ import pytest
 
 from singsym.effort.budget import Undecided
 from singsym.polynomials import Ring
-from singsym.varieties.real.modules.module_points import module_points
+from singsym.varieties.real.modules.module_points import has_no_assembly, module_points
 from singsym.varieties.real.points.finite_sets import real_points
 
 R = Ring(("c", "s", "u", "v", "x", "y"))
@@ -79,3 +79,18 @@ def test_a_dyad_whose_discriminant_is_zero_everywhere() -> None:
     c, x, y = ring.gens
     with pytest.raises(Undecided, match="turns freely"):
         module_points((c**2 - c, (x - y + c - 1) ** 2 - 1, (c + 1) * (x - y - 1)))
+
+
+@pytest.mark.parametrize(("radius", "empty"), [(14, True), (13, False)])
+def test_a_circle_that_no_crank_reaches(radius: int, empty: bool) -> None:
+    """A crank of 3 at the origin with a rod of 7 reaches 10 + sqrt(10) = 13.16 from (3, -1) at most."""
+    ring = Ring(("px", "py", "cx", "cy", "dx", "dy"))
+    px, py, cx, cy, dx, dy = ring.gens
+    curve = (
+        px**2 + py**2 - 9,
+        (px - cx) ** 2 + (py - cy) ** 2 - 49,
+        cx - 2 * dx + 3,
+        cy - 2 * dy - 1,
+        4 * ((dx - 3) ** 2 + (dy + 1) ** 2) - radius**2,
+    )
+    assert has_no_assembly(curve).is_yes == empty

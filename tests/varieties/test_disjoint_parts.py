@@ -1,0 +1,62 @@
+"""Sets that come apart because a few of their equations do."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+
+from singsym.polynomials import Equations, Ring
+from singsym.varieties.disjoint_parts import disjoint_parts
+
+RING = Ring(("x", "y", "u", "v", "w"))
+X, Y, U, V, W = RING.gens
+IN_LINE = (X - 3) * (V + 1) - (Y + 1) * (U - 3)
+"""(x, y), (u, v) and (3, -1) are in line."""
+
+
+def dyad(to_point: int, to_ground: int) -> Equations:
+    """(u, v) at distances from (x, y) and from (3, -1)."""
+    return (U - X) ** 2 + (V - Y) ** 2 - to_point**2, (U - 3) ** 2 + (V + 1) ** 2 - to_ground**2
+
+
+def holding(parts: tuple[Equations, ...], point: tuple[float, ...]) -> list[int]:
+    exact = [Fraction(c) for c in point]
+    return [i for i, part in enumerate(parts) if all(p.evaluate(exact) == 0 for p in part)]
+
+
+@pytest.mark.parametrize("lengths", [(7, 5), (7, 7), (10, 5)])
+def test_a_dyad_in_line_is_stretched_or_folded(lengths: tuple[int, int]) -> None:
+    """Along the direction (3, 4)/5 from the ground: at the sum and at the difference of the lengths.
+
+    With equal lengths the folded one has (x, y) on the ground point, and turns freely.
+    """
+    a, b = lengths
+    parts = disjoint_parts((*dyad(a, b), IN_LINE, W - X))
+    assert len(parts) == 2
+
+    def at(x_far: int, side: int = 1) -> tuple[float, ...]:
+        point = (Fraction(3 * x_far, 5) + 3, Fraction(4 * x_far, 5) - 1)
+        tip = (Fraction(3 * side * b, 5) + 3, Fraction(4 * side * b, 5) - 1)
+        return (*point, *tip, point[0])
+
+    stretched, folded = holding(parts, at(a + b)), holding(parts, at(b - a))
+    assert len(stretched) == len(folded) == 1
+    assert stretched != folded
+    assert holding(parts, (0, 0, 0, 0, 0)) == []
+    if a == b:
+        assert holding(parts, at(0, -1)) == folded
+
+
+def test_parts_that_meet_are_left_together() -> None:
+    """x = 0 and y = 0 meet, where z = x: neither is a part of its own."""
+    equations = (X * Y, U - X, U + X - 2 * X * (Y + 1), W - 1)
+    assert disjoint_parts(equations) == (equations,)
+
+
+def test_too_many_variables() -> None:
+    """Three equations of all variables are left to other ways."""
+    ring = Ring(tuple("abcdefgh"))
+    a, b, c, d, e, f, g, h = ring.gens
+    equations = (a * b - c * d + e * f - g, a - b, a**2 - 1, h)
+    assert disjoint_parts(equations) == (equations,)
