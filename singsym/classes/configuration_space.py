@@ -3,7 +3,9 @@
 Source: Zlatanov, Fenton, Benhabib (1998), section 2.3 (IIM); the second lemma is singsym's own, from the
 unmixedness theorem (Matsumura, Commutative Ring Theory (1986), theorem 17.6).
 
-Lemma 1.  Where rank L = N, the loop equations are independent: the space is a manifold of dimension n there.
+Lemma 1.  Where rank L = N and L has N rows, the loop equations are independent: the space is a manifold of
+dimension n there.  With more rows there are n independent tangents, and the space is a manifold where its
+dimension is n; so it is everywhere where all components over C are proven to have that dimension.
 So a stratum of dimension n or more is a piece of its own: it has inner points, or is larger than all regular
 configurations together.
 
@@ -29,6 +31,7 @@ from singsym.elimination.ideal import Ideal
 from singsym.mechanism.model import Mechanism
 from singsym.minors.determinant import maximal_minors
 from singsym.polynomials import PolynomialMatrix
+from singsym.varieties.decomposition import decompose
 from singsym.varieties.real.dimension.extent import Extent, union
 from singsym.varieties.real.points.intervals import jacobian
 from singsym.varieties.real.proofs.emptiness import is_empty_over_reals
@@ -101,6 +104,8 @@ def _is_smooth(
     # lemmas say nothing of these, nor does the second of a space of all mountings
     if mechanism is not None and not mechanism.translating:
         if all(c.verdict.is_no for c in increased):
+            if not _is_of_one_dimension(conditions):
+                return "undecided", "the loops are over-constrained, and may leave points without a motion"
             return "yes", _resting_on_primes(increased)
         mounted = conditions.equation.space.mountings
         if any(c.verdict.is_yes for c in increased) and not mounted and _is_complete_intersection(conditions):
@@ -110,6 +115,18 @@ def _is_smooth(
             why = f"smooth or not with {names} as variables; for fixed values singular where there is IIM"
             return _with_parameters(conditions), why
     return "undecided", ""
+
+
+def _is_of_one_dimension(conditions: Conditions) -> bool:
+    """Whether the space is seen to have the dimension of its tangents wherever rank L = N."""
+    equation, space = conditions.equation, conditions.equation.space
+    if len(equation.matrix.rows) == equation.N:
+        return True
+    with attempt("the dimensions of the loop equations", patience.SMOOTHNESS.work):
+        found = decompose(space.equations, ring=space.ring)
+        usual = equation.n + space.varying
+        return found.certainty == "proven" and all(c.is_pure and c.dimension == usual for c in found.value)
+    return False
 
 
 def _resting_on_primes(increased: Sequence[ClassResult]) -> str:

@@ -10,7 +10,7 @@ from singsym.classes.configuration_space import configuration_space
 from singsym.classes.taxonomy.types import SingularityType as T
 from singsym.conditions.conditions import conditions
 from singsym.effort.verdict import Verdict
-from singsym.mechanism import load
+from singsym.mechanism import load, loads
 from singsym.varieties.real.dimension.extent import Extent
 
 LATE = "the clock stood still"
@@ -35,3 +35,20 @@ def test_a_class_that_is_open_may_be_a_piece_by_itself() -> None:
     assert "RI, IO" in found[1].remark
     smaller = [replace(left, extent=Extent(-1, -1)) if c is left else c for c in classes]
     assert len(configuration_space(mechanism, conditions(result.equation), pieces, smaller)) == 1
+
+
+def test_an_over_constrained_linkage_with_more_tangents_than_motions() -> None:
+    """A parallelogram whose coupler's middle goes round (2, 0) at 2, and a bar of 3 from (2, -1) to it.
+
+    The two circles touch in (2, 2) only, from inside: the linkage is rigid there and yet has a velocity.  The
+    antiparallelogram's middle does not reach the bar's circle.
+    """
+    points = "points = { A = [0, 0], D = [4, 0], E = [2, -1] }"
+    coupler = "points = { B = [0, 0], C = [4, 0], F = [2, 0] }"
+    joints = "\n".join(f'{name} = "R"' for name in "ABCDEF")
+    shaky = loads(
+        'name = "shaky"\ninputs = ["A"]\noutput = { rate = "D" }\nmobility = 1\n'
+        f"[links]\nground = {{ {points} }}\nAB = 2\nCD = 2\ncoupler = {{ {coupler} }}\nEF = 3\n[joints]\n{joints}"
+    )
+    (space,) = classify(shaky, cache=False).configuration_space
+    assert (space.dimension, space.smooth) == (0, "undecided")
