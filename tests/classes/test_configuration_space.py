@@ -48,7 +48,8 @@ def test_an_over_constrained_linkage_with_more_tangents_than_motions() -> None:
     joints = "\n".join(f'{name} = "R"' for name in "ABCDEF")
     shaky = loads(
         'name = "shaky"\ninputs = ["A"]\noutput = { rate = "D" }\nmobility = 1\n'
-        f"[links]\nground = {{ {points} }}\nAB = 2\nCD = 2\ncoupler = {{ {coupler} }}\nEF = 3\n[joints]\n{joints}"
+        f"[links]\nground = {{ {points} }}\ncoupler = {{ {coupler} }}\n"
+        f"AB = 2\nCD = 2\nEF = 3\n[joints]\n{joints}"
     )
     (space,) = classify(shaky, cache=False).configuration_space
     assert (space.dimension, space.smooth) == (0, "undecided")
