@@ -137,7 +137,7 @@ def test_help_keeps_names_as_they_are() -> None:
         if isinstance(s.choices, dict)
         for c, a in s.choices.items()
     }
-    assert shown["show"] == "A mechanism's joints, loop equations and L."
+    assert shown["show"] == "A mechanism's joints, loop equations, L and modules."
     assert "HTML" in shown["report"]
     assert "Table 1" in shown["classes"]
 

@@ -329,7 +329,7 @@ def test_the_answer_is_printed_all_the_same(fault: str, tmp_path: Path) -> None:
         cwd=Path(__file__).parents[3],
     )
     assert done.returncode == 0
-    assert done.stdout.startswith("fourbar")
+    assert done.stdout.startswith("Locks")
     assert len(done.stderr.splitlines()) == 1
     assert done.stderr.startswith("results are not kept in ")
     assert not list(tmp_path.rglob("*.part"))

@@ -95,7 +95,7 @@ def comes_apart(equations: Equations) -> bool:
     (True, False)
     """
     whole = len(equations[0].ring.names)
-    return all(len(m.unknowns) < whole for m in block_form(equations).modules)
+    return all(len(m.unknowns) < whole for m in _in_order(equations[0].ring, equations).modules)
 
 
 def _points(equations: Equations) -> Known[tuple[BoxPoint, ...]]:
@@ -147,8 +147,13 @@ def with_values(point: BoxPoint, given: Sequence[Substitution], ring: Ring) -> B
     return box_around(equations, known)
 
 
+def _in_order(ring: Ring, equations: Equations) -> SolvingOrder:
+    """The modules of equations; fixed numbers are determined by their own minimal polynomials."""
+    return block_form(tuple(dict.fromkeys((*ring.relations, *equations))))
+
+
 def _of_modules(equations: Equations) -> Known[tuple[BoxPoint, ...]]:
-    solving = _Solving(equations[0].ring, block_form(equations))
+    solving = _Solving(equations[0].ring, _in_order(equations[0].ring, equations))
     failure = Undecided("no precision was tried")
     for bits in PRECISIONS:
         try:
@@ -292,7 +297,7 @@ class _Partial:
 
     def needed_for(self, p: Polynomial) -> Equations:
         """The equations that determine the variables of a polynomial, in as many variables."""
-        form = block_form(self.equations)
+        form = _in_order(p.ring, self.equations)
         needed, found = set(p.variables), list[Polynomial]()
         for module in reversed(form.modules):
             if needed & set(module.unknowns):

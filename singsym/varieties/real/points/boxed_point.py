@@ -167,7 +167,7 @@ def box_around(equations: Sequence[Polynomial], balls: Mapping[str, arb]) -> Box
     """
     ring = equations[0].ring
     known = [balls[name] for name in ring.names]
-    if all(value.is_finite() for value in known):
+    if len(equations) == len(known) and all(value.is_finite() for value in known):
         point = boxed_point(ring, equations, {}, [sum(exact_bounds(value)) / 2 for value in known])
         if point is not None and all(b.contains(a) for a, b in zip(known, point.box, strict=True)):
             return point

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import pytest
 
 from singsym.effort.budget import Undecided
 from singsym.polynomials import Ring
+from singsym.polynomials.ring import AlgebraicConstant
 from singsym.varieties.real.modules.module_points import has_no_assembly, module_points
 from singsym.varieties.real.points.finite_sets import real_points
 
@@ -94,3 +97,12 @@ def test_a_circle_that_no_crank_reaches(radius: int, empty: bool) -> None:
         4 * ((dx - 3) ** 2 + (dy + 1) ** 2) - radius**2,
     )
     assert has_no_assembly(curve).is_yes == empty
+
+
+def test_a_fixed_number_is_no_unknown() -> None:
+    """c r = 0 and c (c - 1) r = 0 with r = sqrt(3): c = 0, whichever of them is matched with what."""
+    root = AlgebraicConstant("r", (-3, 0, 1), Fraction(1), Fraction(2))
+    ring = Ring(("c", "y", "r"), constants=(root,))
+    c, y, r = ring.gens
+    (point,) = module_points((c * r, c * (c - 1) * r, y - c - r, *ring.relations)).value
+    assert point.floats == pytest.approx((0, 3**0.5, 3**0.5))
