@@ -12,7 +12,7 @@ from singsym.effort import patience
 from singsym.effort.attempts import attempt
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.memo import remember
-from singsym.polynomials import Equations, Polynomial
+from singsym.polynomials import Equations
 from singsym.varieties.decomposition import Component, decompose
 
 MOST_VARIABLES = 6
@@ -38,7 +38,8 @@ def _parts(equations: Equations) -> Iterator[Equations]:
     for group in _groups(equations):
         own = _apart(group)
         if own is not None:
-            others = tuple(p for p in equations if p not in group)
+            taken = set(group) - set(equations[0].ring.relations)
+            others = tuple(p for p in equations if p not in taken)
             for part in own:
                 yield from _parts((*others, *part))
             return
@@ -63,16 +64,12 @@ def _apart(group: Equations) -> tuple[Equations, ...] | None:
         found = decompose(tuple(map(ring.convert, group)), ring=ring)
         free = len(ring.names) - len(constants)
         if found.certainty == "proven" and len(found.value) > 1 and _are_disjoint(found.value):
-            parts = [_without_relations(c) for c in found.value]
+            known = {p.primitive() for p in ring.relations}
+            parts = [tuple(p for p in c.generators if p.primitive() not in known) for c in found.value]
             if all(len(p) == free - c.dimension for p, c in zip(parts, found.value, strict=True)):
                 whole = group[0].ring
                 return tuple(tuple(map(whole.convert, part)) for part in parts)
     return None
-
-
-def _without_relations(component: Component) -> tuple[Polynomial, ...]:
-    constants = {c.name for c in component.ideal.ring.constants}
-    return tuple(p for p in component.generators if not constants.issuperset(p.variables))
 
 
 def _are_disjoint(components: tuple[Component, ...]) -> bool:

@@ -7,6 +7,7 @@ from fractions import Fraction
 import pytest
 
 from singsym.polynomials import Equations, Ring
+from singsym.polynomials.ring import AlgebraicConstant
 from singsym.varieties.disjoint_parts import disjoint_parts
 
 RING = Ring(("x", "y", "u", "v", "w"))
@@ -60,3 +61,17 @@ def test_too_many_variables() -> None:
     a, b, c, d, e, f, g, h = ring.gens
     equations = (a * b - c * d + e * f - g, a - b, a**2 - 1, h)
     assert disjoint_parts(equations) == (equations,)
+
+
+def test_fixed_numbers_keep_what_is_known_of_them() -> None:
+    """u = r v or u = -r v with r = sqrt(3), off zero as u v = 3 r or -3 r: each is a part with r in it.
+
+    A part that would say more of r than its minimal polynomial does is no part.
+    """
+    root = AlgebraicConstant("r", (-3, 0, 1), Fraction(1), Fraction(2))
+    ring = Ring(("u", "v", "w", "r"), constants=(root,))
+    u, v, w, r = ring.gens
+    equations = ((u - r * v) * (u + r * v), u**2 - 9, u**2 - 3 * v**2, w - u, *ring.relations)
+    for part in disjoint_parts(equations):
+        assert set(ring.relations) <= set(part)
+        assert all(p in ring.relations for p in part if p.variables == ("r",))
