@@ -8,6 +8,8 @@ of `_near_regular`.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import product
+from math import prod
 from typing import Any
 
 import networkx
@@ -17,10 +19,11 @@ from singsym.effort.budget import Budget, Undecided
 from singsym.elimination.ideal import Ideal
 from singsym.output.figures.layers import Arrow, Box, box_width, draw_layers, row_height
 from singsym.output.figures.style import INK, LINK, PLATFORM, Picture, entitle, paper
+from singsym.polynomials import Polynomial
 from singsym.varieties.real.dimension.extent import union
 
 MANY = 16
-"""With more pieces than this the nodes are whole classes."""
+"""With more pieces than this the nodes are whole classes; more products than this are not looked at."""
 
 _Key = tuple[int, tuple[str, ...]]
 _REGULAR: _Key = (0, ())
@@ -63,7 +66,7 @@ def strata_graph(classification: Classification, seconds: float = 10.0) -> netwo
         for large, (_, outer) in groups.items():
             if graph.nodes[small]["dimension"] < graph.nodes[large]["dimension"]:
                 try:
-                    lying = [any(_inside(p, q, budget) for q in outer) for p in inner]
+                    lying = [_inside(p, outer, budget) for p in inner]
                 except Undecided:
                     graph.graph["undecided"] += 1
                     continue
@@ -83,17 +86,20 @@ def strata_graph(classification: Classification, seconds: float = 10.0) -> netwo
 def _near_regular(classification: Classification, pieces: Sequence[Piece], budget: Budget) -> bool:
     """Whether pieces of a class are proven to lie in the closure of the regular configurations.
 
-    Lemma.  Where rank L = N the configuration space is a manifold of dimension n, and of n and the number of
-    parameters and mountings with these as variables.  If all singular configurations together have a smaller
-    dimension, they have no inner points, so that there are regular configurations near each of rank L = N:
-    feasible ones where that is not at the end of a range.
+    Lemma.  Where rank L = N, and L has N rows, the configuration space is a manifold of dimension n, and of n
+    and the number of parameters and mountings with these as variables.  If all singular configurations
+    together have a smaller dimension, they have no inner points, so that there are regular configurations
+    near each of rank L = N: feasible ones where that is not at the end of a range.
     """
     mechanism, space = classification.mechanism, classification.equation.space
     usual = classification.equation.n + space.varying
     bounds = [c.extent.at_most for c in classification.classes]
     if mechanism is None or mechanism.translating or any(m is None or m >= usual for m in bounds):
         return False
-    if any(p.defects.delta for p in pieces):
+    if (
+        any(p.defects.delta for p in pieces)
+        or len(classification.equation.L.rows) != classification.equation.N
+    ):
         return False
     try:
         ends = (Ideal(space.ring, (*p.basis, end)) for p in pieces for end in space.nonnegative)
@@ -122,11 +128,22 @@ def _short(text: str) -> str:
     return f"{text} = 0" if len(text) <= 24 else f"{text[:20]}… = 0"
 
 
-def _inside(small: Piece, large: Piece, budget: Budget) -> bool:
-    """Whether the zeros of one ideal are among those of another."""
+def _inside(small: Piece, large: Sequence[Piece], budget: Budget) -> bool:
+    """Whether the zeros of one ideal are seen to be among those of others together.
+
+    They are where each product vanishes of one generator of each of the others.
+    """
     inner = Ideal(small.basis[0].ring, small.basis)
-    known = (inner.radical_contains(g, budget) for g in large.basis)
-    return all(vanishes.value for vanishes in known)
+
+    def vanishes(polynomial: Polynomial) -> bool:
+        return inner.radical_contains(polynomial, budget).value
+
+    left = [[g for g in piece.basis if not vanishes(g)] for piece in large]
+    if not all(left):
+        return True
+    return prod(map(len, left)) <= MANY and all(
+        vanishes(prod(choice, start=small.basis[0].ring.one)) for choice in product(*left)
+    )
 
 
 def plot_strata(

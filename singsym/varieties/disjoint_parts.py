@@ -65,11 +65,30 @@ def _apart(group: Equations) -> tuple[Equations, ...] | None:
         free = len(ring.names) - len(constants)
         if found.certainty == "proven" and len(found.value) > 1 and _are_disjoint(found.value):
             known = {p.primitive() for p in ring.relations}
-            parts = [tuple(p for p in c.generators if p.primitive() not in known) for c in found.value]
+            own = tuple(map(ring.convert, group))
+            parts = [
+                _shortly(tuple(p for p in c.generators if p.primitive() not in known), own)
+                for c in found.value
+            ]
             if all(len(p) == free - c.dimension for p, c in zip(parts, found.value, strict=True)):
                 whole = group[0].ring
                 return tuple(tuple(map(whole.convert, part)) for part in parts)
     return None
+
+
+def _shortly(part: Equations, group: Equations) -> Equations:
+    """The part by its linear equations and one of the group's, in few variables, where that will do.
+
+    What is known of these variables by other equations is seen there again.
+    """
+    linear = tuple(p for p in part if p.total_degree == 1)
+    if len(linear) + 1 != len(part):
+        return part
+    (rest,) = (p for p in part if p not in linear)
+    for known in sorted(group, key=lambda p: (len(p.variables), len(p))):
+        if known.total_degree > 1 and Ideal(known.ring, (*linear, known)).contains(rest).value:
+            return (*linear, known)
+    return part
 
 
 def _are_disjoint(components: tuple[Component, ...]) -> bool:
