@@ -100,6 +100,7 @@ def test_classes_of_one_loop() -> None:
     assert found == {T.RI | T.IO: (1, 3), T.RO | T.II: (1, 1), T.RI | T.RO | T.IIM: (0, 2)}
 
 
+@pytest.mark.engines
 def test_classes_of_two_loops(monkeypatch: pytest.MonkeyPatch) -> None:
     """The types of one loop, and points with cranks in parallel and the rods of the second loop in a line.
 

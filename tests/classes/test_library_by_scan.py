@@ -160,12 +160,13 @@ SCANS = [
     shaper,
     watt_one_six_bar,
     stephenson_one_six_bar,
-    stephenson_two_six_bar,
+    # a triad, one module of four unknowns
+    pytest.param(stephenson_two_six_bar, marks=pytest.mark.engines),
     eight_bar,
     ten_bar,
 ]
 
 
-@pytest.mark.parametrize("scan", SCANS, ids=lambda scan: scan.__name__)
+@pytest.mark.parametrize("scan", SCANS, ids=lambda scan: str(scan.__name__))
 def test_the_scan_finds_the_same(scan: Callable[[], dict[T, int]]) -> None:
     assert found_by_singsym(load(scan.__name__.replace("_", "-"))) == scan()
