@@ -11,24 +11,41 @@ import time
 from collections.abc import Callable
 from contextlib import suppress
 
-_own_time: Callable[[], float] = getattr(time, "thread_time", time.monotonic)
-_thread = threading.local()
+_clock: Callable[[], float] = getattr(time, "thread_time", time.monotonic)
+_GRAIN = 0.005
+"""Seconds in which the clock is read once: it is a call of the system, and asked for all the time."""
+
+
+class _Work(threading.local):
+    """What this thread worked when its clock was last read, when that was, and what it waited for."""
+
+    own = 0.0
+    read_at = -1.0
+    waited_for = 0.0
+
+
+_thread = _Work()
 
 
 def worked() -> float:
     """Seconds of work in this thread since some moment: only differences mean something.
+
+    Too small by at most a few milliseconds.
 
     >>> before = worked()
     >>> time.sleep(0.05)
     >>> worked() - before < 0.05
     True
     """
-    return _own_time() + float(getattr(_thread, "waited_for", 0.0))
+    now = time.monotonic()
+    if now - _thread.read_at > _GRAIN:
+        _thread.own, _thread.read_at = _clock(), now
+    return _thread.own + _thread.waited_for
 
 
 def charge(seconds: float) -> None:
     """Add work that another process did for this thread."""
-    _thread.waited_for = float(getattr(_thread, "waited_for", 0.0)) + seconds
+    _thread.waited_for += seconds
 
 
 class Meter:

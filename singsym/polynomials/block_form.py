@@ -49,6 +49,22 @@ class SolvingOrder:
         return tuple(reversed(found))
 
 
+def determining(equations: Sequence[Polynomial], names: Collection[str]) -> tuple[Polynomial, ...]:
+    """The equations that determine these variables: of their modules, and of all that these need.
+
+    >>> from singsym.polynomials import Ring
+    >>> x, y, z = Ring(("x", "y", "z")).gens
+    >>> [str(p) for p in determining((y * z - 1, x**2 - 2, x + y - 3), ("y",))]
+    ['x + y - 3', 'x^2 - 2']
+    """
+    needed, found = set(names), list[Polynomial]()
+    for module in reversed(block_form(equations).modules):
+        if needed & set(module.unknowns):
+            needed |= set(module.parents)
+            found += module.equations
+    return tuple(found)
+
+
 def block_form(equations: Sequence[Polynomial], given: Collection[str] = ()) -> SolvingOrder:
     """The modules of equations in all their variables but the given ones.
 

@@ -1,23 +1,29 @@
 """The connected components of a curve, counted in its smallest ring and lifted by the modules that come last.
 
-Source: coverings of curves, see lifted_curve.py; the curve below by real_curve.py.
+Source: coverings of curves: over circles as graphs, see coverings.py; over others see lifted_curve.py and
+real_curve.py.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
+import networkx as nx
+
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Budget, Undecided
 from singsym.elimination.ideal import Ideal
+from singsym.elimination.linear_substitution import Substitution
 from singsym.elimination.memo import remember
 from singsym.polynomials import Equations, Polynomial
 from singsym.polynomials.block_form import with_last_modules
 from singsym.varieties.real.curves.arithmetic import System
 from singsym.varieties.real.curves.real_curve import real_curve
 from singsym.varieties.real.modules.assemblies import is_round
-from singsym.varieties.real.modules.lifted_curve import LiftedCurve, lifted_curves, towers
-from singsym.varieties.real.modules.module_points import module_points, with_values, without_given
+from singsym.varieties.real.modules.coverings import Covering, CurvePoint, coverings
+from singsym.varieties.real.modules.lifted_curve import LiftedCurve
+from singsym.varieties.real.modules.module_points import points_of, without_given
+from singsym.varieties.real.modules.towers import towers
 from singsym.varieties.real.points.boxed_point import BoxPoint
 from singsym.varieties.splitting import used_ring
 
@@ -34,20 +40,92 @@ def components_off(equations: Equations, exclusions: Sequence[Equations], budget
     >>> components_off(four_bar, (), Budget()), components_off(four_bar, ((y,), (c, s)), Budget())
     (2, 2)
     """
+    left, given = without_given(equations)
+    if left and next(towers(left), None) is not None:
+        with attempt("the components of a curve of dyads over circles", share=1 / 2):
+            return _over_circles(left, [_with_given(group, given, left) for group in exclusions], budget)
     key = (equations[0].ring, frozenset(p.primitive() for p in equations))
     points = remember("components by modules", key, lambda: _points(equations, budget), budget)
     return sum(not any(_lies_in(p, group, equations) for group in exclusions) for p in points)
 
 
+def _with_given(group: Equations, given: Sequence[Substitution], left: Equations) -> Equations:
+    """Polynomials on the curve in the variables that are left."""
+    for step in given:
+        group = step.apply(group)
+    return tuple(map(left[0].ring.convert, group))
+
+
+def _over_circles(equations: Equations, exclusions: Sequence[Equations], budget: Budget) -> int:
+    """Those of a tower: of the graphs of its coverings, for each point of what its circle does not need."""
+    key = (equations[0].ring, equations)
+    curves, others = remember("coverings", key, lambda: _coverings(equations, budget), budget)
+    return sum(_components(curve, other, exclusions, equations) for curve in curves for other in others)
+
+
+def _coverings(
+    equations: Equations, budget: Budget
+) -> tuple[tuple[Covering, ...], tuple[CurvePoint | None, ...]]:
+    """The curves over the circle of a tower, and the points of the modules that it does not need."""
+    found = next(towers(equations))
+    needed, own = {*found.circle.variables}, [found.circle]
+    for module in reversed((*found.foundation, *found.dyads)):
+        if module in found.dyads or needed.intersection(module.unknowns):
+            needed.update(module.unknowns, module.parents)
+            own += module.equations
+    ring = equations[0].ring.with_names(n for n in equations[0].ring.names if n in needed)
+    tower = next(towers([ring.convert(p) for p in equations if p in own]))
+    curves = coverings(tower, points_of, budget).value
+    apart = [p for p in equations if p not in own]
+    if not apart:
+        return curves, (None,)
+    beside = used_ring(equations[0].ring, apart)
+    system = tuple(map(beside.convert, apart))
+    points = points_of(system)
+    return curves, tuple(CurvePoint.of(p, system) for p in points.value)
+
+
+def _components(
+    curve: Covering, other: CurvePoint | None, exclusions: Sequence[Equations], equations: Equations
+) -> int:
+    """Those of a curve, with a point in further coordinates, that are in no exclusion.
+
+    Arcs in one are left out; a point where no arc ends is a component of its own.
+    """
+
+    def whole(point: CurvePoint) -> CurvePoint:
+        return point.beside(other, equations[0].ring)
+
+    graph = nx.Graph()
+    for arc in curve.arcs:
+        middle = whole(curve.middle(arc))
+        if not any(_is_arc_in(middle, group, equations) for group in exclusions):
+            graph.add_edge(*arc.ends)
+    ends = {k for arc in curve.arcs for k in arc.ends}
+    alone = (whole(point) for k, point in enumerate(curve.points) if k not in ends)
+    kept = sum(not any(all(p.sign(q) == 0 for q in group) for group in exclusions) for p in alone)
+    return int(nx.number_connected_components(graph)) + kept
+
+
+def _is_arc_in(middle: CurvePoint, group: Equations, equations: Equations) -> bool:
+    """Whether an arc lies in an exclusion, by a point inside of it; `Undecided` where this is not seen.
+
+    Lemma: the curve is in the zeros of the group or in those of its saturation by it, and an analytic arc
+    that is in the first near a point off the second is there as a whole.
+    """
+    others = tuple(p for p in group if not _vanishes(p, equations))
+    if not others:
+        return True
+    if any(map(middle.seen_sign, others)) or any(map(middle.sign, others)):
+        return False
+    ideal = Ideal(equations[0].ring, equations)
+    if any(map(middle.sign, ideal.saturate(Ideal(ideal.ring, others)).value.generators)):
+        return True
+    raise Undecided("whether an arc of a curve lies in an exclusion is not seen")
+
+
 def _points(equations: Equations, budget: Budget) -> tuple[BoxPoint, ...]:
     """One of each component."""
-    left, given = without_given(equations)
-    over = next(towers(left), None) if left else None
-    if over is not None:
-        with attempt("the components of a curve of dyads over circles", share=1 / 2):
-            curves = lifted_curves(over, module_points, budget).value
-            tops = (curve.point_on(loop) for curve in curves for loop in curve.loops)
-            return tuple(with_values(point, given, equations[0].ring) for point in tops)
     core, dyads = with_last_modules(equations, 2)
     if not core or not dyads or not all(map(is_round, dyads)):
         raise Undecided("the curve has no dyads that come last")

@@ -10,7 +10,6 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
-from itertools import combinations
 
 import numpy as np
 from flint import arb
@@ -18,7 +17,7 @@ from flint import arb
 from singsym.effort.budget import Budget, Undecided
 from singsym.effort.verdict import Known
 from singsym.polynomials import Equations, Polynomial, Ring
-from singsym.polynomials.block_form import Module, block_form
+from singsym.polynomials.block_form import Module
 from singsym.varieties.real.curves.arithmetic import System
 from singsym.varieties.real.curves.assembly import assemble
 from singsym.varieties.real.curves.critical_points import Samples, as_balls
@@ -26,7 +25,8 @@ from singsym.varieties.real.curves.paths import Chain
 from singsym.varieties.real.curves.tracking import kernels
 from singsym.varieties.real.curves.tubes import location
 from singsym.varieties.real.curves.zeros import zeros_on
-from singsym.varieties.real.modules.assemblies import Dyad, assemblies, dyad, is_circle, is_round, value_at
+from singsym.varieties.real.modules.assemblies import Dyad, assemblies, dyad, value_at
+from singsym.varieties.real.modules.towers import Tower, towers
 from singsym.varieties.real.points.boxed_point import BoxPoint, box_around, boxed_point
 from singsym.varieties.real.points.intervals import at_precision, ball
 
@@ -35,20 +35,6 @@ _BITS = 256
 
 Solver = Callable[[Equations], Known[tuple[BoxPoint, ...]]]
 """Finds all real points of a square system."""
-
-
-@dataclass(frozen=True)
-class Tower:
-    """A circle and the dyads over it, in the order in which they are solved.
-
-    foundation: modules that do not depend on the circle, among them the relations of fixed numbers; the
-    circle's centre and radius may be theirs.  base: the two variables of the circle.
-    """
-
-    foundation: tuple[Module, ...]
-    circle: Polynomial
-    base: tuple[str, str]
-    dyads: tuple[Module, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,36 +85,6 @@ class LiftedCurve:
     def point_on(self, loop: Chain) -> BoxPoint:
         """A certified point of one of the loops."""
         return _point_on(self.system, loop, len(loop.points) // 2)[0]
-
-
-def towers(equations: Sequence[Polynomial]) -> Iterator[Tower]:
-    """Each way to see equations of a curve as a circle with dyads over it.
-
-    >>> ring = Ring(("c", "s", "x", "y"))
-    >>> c, s, x, y = ring.gens
-    >>> found = next(towers((c**2 + s**2 - 1, (x - c) ** 2 + (y - s) ** 2 - 9, (x - 3) ** 2 + y**2 - 4)))
-    >>> found.base, found.dyads[0].unknowns
-    (('c', 's'), ('x', 'y'))
-    """
-    for circle in equations:
-        ring = circle.ring
-        constants = {c.name for c in ring.constants}
-        names = [name for name in circle.variables if name not in constants]
-        for x, y in combinations(names, 2):
-            if not is_circle(circle, (x, y)):
-                continue
-            form = block_form([p for p in equations if p is not circle], given=(x, y))
-            known, foundation, dyads = set[str](), list[Module](), list[Module]()
-            for module in form.modules:
-                if known.issuperset(module.parents):
-                    foundation.append(module)
-                    known |= set(module.unknowns)
-                else:
-                    dyads.append(module)
-            complete = 2 + sum(len(m.unknowns) for m in form.modules) == len(ring.names)
-            stands = known.issuperset({*circle.variables} - {x, y})
-            if complete and stands and not form.left_over and all(map(is_round, dyads)):
-                yield Tower(tuple(foundation), circle, (x, y), tuple(dyads))
 
 
 def points_on_tower(equations: Equations, solve: Solver, budget: Budget) -> Known[tuple[BoxPoint, ...]]:

@@ -21,9 +21,11 @@ from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.elimination.linear_substitution import Substitution, solved_variable
 from singsym.elimination.memo import remember
 from singsym.polynomials import Equations, Polynomial, Ring
-from singsym.polynomials.block_form import Module, SolvingOrder, block_form
+from singsym.polynomials.block_form import Module, SolvingOrder, block_form, determining
 from singsym.varieties.real.modules.assemblies import assemblies, dyad, is_simple, value_at
-from singsym.varieties.real.modules.lifted_curve import is_tower, lifted_curves, points_on_tower, towers
+from singsym.varieties.real.modules.coverings import coverings
+from singsym.varieties.real.modules.lifted_curve import is_tower, points_on_tower
+from singsym.varieties.real.modules.towers import towers
 from singsym.varieties.real.points.boxed_point import BoxPoint, box_around
 from singsym.varieties.real.points.exact_point import RealPoint
 from singsym.varieties.real.points.finite_sets import real_points
@@ -80,10 +82,18 @@ def has_no_assembly(equations: Equations) -> Verdict:
     over = next(towers(left), None) if left else None
     if over is not None:
         with attempt("modules over a circle without an assembly", patience.ASSEMBLIES.work):
-            curves = lifted_curves(over, module_points, current())
-            if not any(curve.loops for curve in curves.value):
+            curves = coverings(over, points_of, current())
+            if not any(curve.points for curve in curves.value):
                 return Verdict.yes(curves.certainty, reason="modules over a circle have no common assembly")
     return Verdict.undecided("modules do not show that there is no real point")
+
+
+def points_of(equations: Equations) -> Known[tuple[RealPoint, ...]] | Known[tuple[BoxPoint, ...]]:
+    """All real points of finitely many: by algebra where they are few, so that they may be multiple."""
+    if _bezout(equations) <= MOST_SOLUTIONS:
+        with attempt("a finite set by algebra", patience.FIRST_MODULE.work):
+            return _exactly(equations)
+    return module_points(equations)
 
 
 def comes_apart(equations: Equations) -> bool:
@@ -263,7 +273,7 @@ class _Solving:
         """Whether a polynomial vanishes at what is known: by exact algebra in the ring of what it needs."""
         if p.is_zero:
             return True
-        equations = known.needed_for(p)
+        equations = determining(tuple(dict.fromkeys((*self.ring.relations, *known.equations))), p.variables)
         own = self.ring.with_names(
             tuple(n for n in self.ring.names if any(n in e.variables for e in equations))
         )
@@ -295,16 +305,6 @@ class _Partial:
         together = tuple(dict.fromkeys((*self.equations, *equations)))
         return replace(self, values={**self.values, **values}, equations=together)
 
-    def needed_for(self, p: Polynomial) -> Equations:
-        """The equations that determine the variables of a polynomial, in as many variables."""
-        form = _in_order(p.ring, self.equations)
-        needed, found = set(p.variables), list[Polynomial]()
-        for module in reversed(form.modules):
-            if needed & set(module.unknowns):
-                needed |= set(module.parents)
-                found += module.equations
-        return tuple(found)
-
     @property
     def certified(self) -> BoxPoint:
         """The whole point in a box of its own."""
@@ -321,7 +321,7 @@ def _alone(step: _Step, ring: Ring) -> Known[tuple[BoxPoint, ...]]:
     own = ring.with_names(tuple(n for n in ring.names if n in names))
     given = (own.convert(p) for m in step.modules for p in m.equations)
     equations = tuple(dict.fromkeys((*given, *own.relations)))
-    many = prod(p.total_degree for p in equations if p not in own.relations) > MOST_SOLUTIONS
+    many = _bezout(equations) > MOST_SOLUTIONS
     if (many or len(step.modules) > 1) and is_tower(equations):
         return points_on_tower(equations, module_points, current())
     if many:
@@ -330,6 +330,11 @@ def _alone(step: _Step, ring: Ring) -> Known[tuple[BoxPoint, ...]]:
         points = _exactly(equations)
         return points.map(lambda found: tuple(box_around(equations, _balls(p, 96)) for p in found))
     return points_on_tower(equations, module_points, current())
+
+
+def _bezout(equations: Equations) -> int:
+    relations = equations[0].ring.relations
+    return prod(p.total_degree for p in equations if p not in relations)
 
 
 def _exactly(equations: Equations) -> Known[tuple[RealPoint, ...]]:
