@@ -10,120 +10,24 @@ that is a form of second degree in the line's coefficients, and where it is zero
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import suppress
-from dataclasses import dataclass, field, replace
-from fractions import Fraction
-from functools import cached_property
-from math import cos, sin
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 from flint import arb
 
 from singsym.effort.budget import Budget, Undecided
 from singsym.effort.verdict import Known, Premises
 from singsym.polynomials import Equations, Polynomial, Ring
-from singsym.polynomials.block_form import Module, determining
+from singsym.polynomials.block_form import Module
 from singsym.varieties.real.modules.assemblies import Dyad, assemblies, dyad, value_at
+from singsym.varieties.real.modules.base_circle import BaseCircle
+from singsym.varieties.real.modules.curve_point import BITS, Balls, CurvePoint
 from singsym.varieties.real.modules.towers import Tower
 from singsym.varieties.real.points.enclosed_point import EnclosedPoint
-from singsym.varieties.real.points.finite_sets import real_points
-from singsym.varieties.real.points.intervals import at_precision, ball
-from singsym.varieties.splitting import used_ring
+from singsym.varieties.real.points.intervals import at_precision
 
-_BITS = (64, 256, 1024)
-"""Bits of the balls of a point, tried in turn where something is not seen."""
-_HEIGHTS = (Fraction(1, 4), Fraction(2, 7), Fraction(3, 11))
-"""Where a circle's arcs begin: in radii above its centre."""
-
-Balls = Mapping[str, arb]
 Solver = Callable[[Equations], Known[tuple[EnclosedPoint, ...]]]
 """Finds all real points of finitely many."""
-
-
-@dataclass(frozen=True, eq=False)
-class CurvePoint:
-    """A point of a curve by balls as small as wanted.
-
-    equations: what it is one of finitely many solutions of; locate: balls of its coordinates, for so many
-    bits; premises: what rests on its being one of those that were found.
-    """
-
-    ring: Ring
-    equations: Equations
-    locate: Callable[[int], Balls]
-    premises: Premises
-    _known: dict[int, Balls] = field(default_factory=dict)
-
-    def balls(self, bits: int) -> Balls:
-        """Balls that hold the coordinates, by name."""
-        if bits not in self._known:
-            with at_precision(bits + 64):
-                self._known[bits] = self.locate(bits)
-        return self._known[bits]
-
-    def located(self) -> CurvePoint:
-        """The same point; raises `Undecided` where there are no balls of it, as where a dyad turns freely."""
-        for bits in _BITS[:-1]:
-            with suppress(Undecided):
-                self.balls(bits)
-                return self
-        self.balls(_BITS[-1])
-        return self
-
-    def sign(self, polynomial: Polynomial) -> int:
-        """The sign at the point: exact algebra is asked where balls do not tell it from zero."""
-        sign = self.seen_sign(polynomial)
-        return self._exact_sign(polynomial) if sign is None else sign
-
-    def seen_sign(self, polynomial: Polynomial) -> int | None:
-        """The sign, where balls tell it or the polynomial is one of the point's equations."""
-        if polynomial.is_zero or polynomial.primitive() in {p.primitive() for p in self.equations}:
-            return 0
-        for bits in _BITS:
-            known = self.balls(bits)
-            with at_precision(bits + 64):
-                value = value_at(polynomial, known)
-                if value > 0 or value < 0:
-                    return 1 if value > 0 else -1
-        return None
-
-    def _exact_sign(self, polynomial: Polynomial) -> int:
-        equations = determining(
-            tuple(dict.fromkeys((*self.ring.relations, *self.equations))), polynomial.variables
-        )
-        own = used_ring(self.ring, equations)
-        found = self.premises.take(real_points(tuple(map(own.convert, equations))))
-        for bits in _BITS:
-            known = self.balls(bits)
-            near = [
-                p
-                for p in found
-                if all(known[n].overlaps(b) for n, b in zip(own.names, p.refine(bits).box, strict=True))
-            ]
-            if len(near) == 1:
-                return near[0].sign(own.convert(polynomial))
-        raise Undecided(f"the sign of {polynomial.short_text()} at a point of a curve")
-
-    @staticmethod
-    def of(point: EnclosedPoint, equations: Equations, premises: Premises | None = None) -> CurvePoint:
-        """A point that was found."""
-        return CurvePoint(point.ring, equations, _balls_of(point), premises or Premises())
-
-    def beside(self, other: CurvePoint | None, ring: Ring) -> CurvePoint:
-        """The point in more coordinates, those of another point."""
-        if other is None:
-            return self
-        equations = tuple(map(ring.convert, (*self.equations, *other.equations)))
-        return CurvePoint(ring, equations, lambda b: {**other.balls(b), **self.balls(b)}, self.premises)
-
-    def over(self, module: Module, ring: Ring, values: Callable[[Balls], Balls]) -> CurvePoint:
-        """The point with the values of a module's unknowns."""
-        equations = tuple(map(ring.convert, (*self.equations, *module.equations)))
-        return CurvePoint(ring, equations, lambda bits: _and(self.balls(bits), values), self.premises)
-
-
-def _and(known: Balls, values: Callable[[Balls], Balls]) -> Balls:
-    return {**known, **values(known)}
 
 
 @dataclass(frozen=True)
@@ -143,7 +47,7 @@ class Covering:
     begin.
     """
 
-    circle: _Circle
+    circle: BaseCircle
     equations: Equations
     dyads: tuple[Module, ...]
     points: tuple[CurvePoint, ...]
@@ -157,9 +61,9 @@ class Covering:
 
     def middle(self, arc: Arc) -> CurvePoint:
         """A point inside an arc."""
-        start, end = self._span(arc, _BITS[0])
+        start, end = self._span(arc, BITS[0])
         point = self.circle.at((float(start.mid()) + float(end.mid())) / 2)
-        if not start < self.circle.turn(point, _BITS[0]) < end:
+        if not start < self.circle.turn(point, BITS[0]) < end:
             raise Undecided("the ends of an arc of a curve are too near")
         for module, sign in zip(self.dyads, arc.signs, strict=True):
             point = point.over(module, _with(self.ring, point.ring, module), _assembly(module, sign))
@@ -226,7 +130,7 @@ class Covering:
         signs = tuple(map(point.sign, tangencies))
         if 0 in signs:
             return None
-        for bits in _BITS:
+        for bits in BITS:
             turn = self.circle.turn(point, bits)
             for arc in self.arcs:
                 start, end = self._span(arc, bits)
@@ -263,120 +167,9 @@ def _assembly(module: Module, sign: int) -> Callable[[Balls], Balls]:
     return values
 
 
-def _balls_of(point: EnclosedPoint) -> Callable[[int], Balls]:
-    return lambda bits: dict(zip(point.ring.names, point.refine(bits).box, strict=True))
-
-
 def _with(whole: Ring, ring: Ring, module: Module) -> Ring:
     """The ring with the unknowns of a module, in the order of the whole."""
     return whole.with_names(n for n in whole.names if n in ring.names or n in module.unknowns)
-
-
-@dataclass(frozen=True, eq=False)
-class _Circle:
-    """The circle that a curve stands on, over one point of what determines it.
-
-    whole: the ring of the curve; equations: of the circle and of what it stands on; standing: that point, if
-    there is something, and the others.
-    """
-
-    whole: Ring
-    equations: Equations
-    base: tuple[str, str]
-    standing: EnclosedPoint | None
-    others: tuple[EnclosedPoint, ...]
-    premises: Premises
-    height: Fraction
-
-    @property
-    def ring(self) -> Ring:
-        return self.equations[0].ring
-
-    def known(self, bits: int) -> dict[str, arb]:
-        return {} if self.standing is None else dict(_balls_of(self.standing)(bits))
-
-    def shape(self, bits: int) -> tuple[arb, arb, arb]:
-        """Centre and square of the radius."""
-        circle, (x, y), known = self.equations[-1], self.base, self.known(bits)
-        parts = (circle.coefficient(x, i).coefficient(y, j) for i, j in ((2, 0), (1, 0), (0, 1), (0, 0)))
-        a, b, c, d = (value_at(p, known) for p in parts)
-        return -b / (2 * a), -c / (2 * a), (b * b + c * c) / (4 * a * a) - d / a
-
-    def holds(self, point: CurvePoint) -> bool:
-        """Whether a point is over this circle, and not over one of the others."""
-        for bits in _BITS:
-            near = [p for p in (self.standing, *self.others) if p is None or _meets(point, p, bits)]
-            if len(near) <= 1:
-                return near == [self.standing]
-        raise Undecided("what a point of a curve stands on is not seen")
-
-    def at(self, turn: float) -> CurvePoint:
-        """The point at about this turn, one coordinate at a rational."""
-        with at_precision(_BITS[0]):
-            _, _, square = self.shape(_BITS[0])
-            start = float((square.sqrt()).mid())
-            u, v = (float(x.mid()) / start for x in self._from_centre(self.origin, _BITS[0]))
-        across, along = cos(turn) * u - sin(turn) * v, cos(turn) * v + sin(turn) * u
-        k = 0 if abs(along) > abs(across) else 1
-        with at_precision(_BITS[0]):
-            middle = float(self.shape(_BITS[0])[k].mid())
-        level = Fraction(middle + start * (across, along)[k]).limit_denominator(10**6)
-        return self._held(k, level, (along, across)[k] > 0)
-
-    @cached_property
-    def origin(self) -> CurvePoint:
-        """Where its arcs begin."""
-        with at_precision(_BITS[0]):
-            _, across, square = self.shape(_BITS[0])
-            level = float(across.mid()) + float(self.height) * float(square.sqrt().mid())
-        return self._held(1, Fraction(level).limit_denominator(1000), True)
-
-    def _held(self, k: int, level: Fraction, positive: bool) -> CurvePoint:
-        """The point with coordinate k at a rational, the other one larger or smaller than the centre's."""
-        held, other = self.base[k], self.base[1 - k]
-
-        def locate(bits: int) -> Balls:
-            *centre, square = self.shape(bits)
-            half = (square - (ball(level) - centre[k]) ** 2).sqrt()
-            return {
-                **self.known(bits),
-                held: ball(level),
-                other: centre[1 - k] + (half if positive else -half),
-            }
-
-        equations = (*self.equations, self.ring.gen(held) - level)
-        return CurvePoint(self.ring, equations, locate, self.premises)
-
-    def _from_centre(self, point: CurvePoint, bits: int) -> tuple[arb, arb]:
-        centre, known = self.shape(bits), point.balls(bits)
-        return known[self.base[0]] - centre[0], known[self.base[1]] - centre[1]
-
-    def turn(self, point: CurvePoint, bits: int) -> arb:
-        """The angle from the origin to a point, between 0 and a whole turn."""
-        with at_precision(bits + 64):
-            (a, b), (u, v) = self._from_centre(self.origin, bits), self._from_centre(point, bits)
-            along, across = a * u + b * v, a * v - b * u
-            if across > 0:
-                return arb.atan2(across, along)
-            if across < 0:
-                return arb.atan2(across, along) + 2 * arb.pi()
-            if along < 0:
-                return arb.atan2(-across, -along) + arb.pi()
-            return arb("nan")
-
-    def sorted(self, points: Sequence[CurvePoint]) -> Iterator[CurvePoint]:
-        """Points of one sheet in the order in which the circle turns."""
-        for bits in _BITS:
-            turns = sorted(((self.turn(p, bits), p) for p in points), key=lambda pair: float(pair[0].mid()))
-            if all(one[0] < two[0] for one, two in itertools.pairwise(turns)):
-                yield from (p for _, p in turns)
-                return
-        raise Undecided("the order of two points of a curve is not seen")
-
-
-def _meets(point: CurvePoint, other: EnclosedPoint, bits: int) -> bool:
-    known = point.balls(bits)
-    return all(known[n].overlaps(b) for n, b in _balls_of(other)(bits).items())
 
 
 def coverings(found: Tower, solve: Solver, budget: Budget) -> Known[tuple[Covering, ...]]:
@@ -403,7 +196,7 @@ def coverings(found: Tower, solve: Solver, budget: Budget) -> Known[tuple[Coveri
     curves = []
     for point in standing:
         others = tuple(p for p in standing if p is not None and p is not point)
-        circle = _Circle(ring, equations, found.base, point, others, premises, _HEIGHTS[0])
+        circle = BaseCircle(ring, equations, found.base, point, others, premises)
         curve = _circle_alone(circle)
         if curve is None:
             continue
@@ -413,10 +206,10 @@ def coverings(found: Tower, solve: Solver, budget: Budget) -> Known[tuple[Coveri
     return premises.conclude(tuple(curves))
 
 
-def _circle_alone(circle: _Circle) -> Covering | None:
+def _circle_alone(circle: BaseCircle) -> Covering | None:
     """The curve that is only the circle; none where it has no real points."""
-    with at_precision(_BITS[1]):
-        *_, square = circle.shape(_BITS[1])
+    with at_precision(BITS[1]):
+        *_, square = circle.shape(BITS[1])
         if square < 0:
             return None
         if not square > 0:

@@ -20,7 +20,8 @@ from singsym.polynomials.block_form import with_last_modules
 from singsym.varieties.real.curves.arithmetic import System
 from singsym.varieties.real.curves.real_curve import real_curve
 from singsym.varieties.real.modules.assemblies import is_round
-from singsym.varieties.real.modules.coverings import Covering, CurvePoint, coverings
+from singsym.varieties.real.modules.coverings import Covering, coverings
+from singsym.varieties.real.modules.curve_point import CurvePoint
 from singsym.varieties.real.modules.lifted_curve import LiftedCurve
 from singsym.varieties.real.modules.module_points import points_of, without_given
 from singsym.varieties.real.modules.towers import towers

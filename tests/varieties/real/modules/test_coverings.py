@@ -77,7 +77,7 @@ def test_a_dyad_that_turns_freely() -> None:
 
 def test_two_dyads_one_upon_the_other() -> None:
     """A crank-rocker 1, 3, 2, 3, and on the coupler's end a dyad of bars 9 and 9 to (5, 0): the end is at
-    most 4 from the origin, so between 1 and 9 from there, and the dyad is never in line: each branch twice."""
+    most 4 from the origin, so between 1 and 9 from there, and the dyad never in line: each branch twice."""
     ring = Ring(("c", "s", "x", "y", "u", "v"))
     x, y, u, v = (ring.gen(n) for n in "xyuv")
     four = tuple(map(ring.convert, four_bar(1, 3, 2, 3)))
