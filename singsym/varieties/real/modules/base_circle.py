@@ -43,9 +43,11 @@ class BaseCircle:
 
     @property
     def ring(self) -> Ring:
+        """The ring of the circle and of what it stands on."""
         return self.equations[0].ring
 
     def known(self, bits: int) -> dict[str, arb]:
+        """Balls of what it stands on, for so many bits."""
         return {} if self.standing is None else dict(balls_of(self.standing)(bits))
 
     def shape(self, bits: int) -> tuple[arb, arb, arb]:
