@@ -22,9 +22,22 @@ def test_a_crank_with_two_dyads_is_a_curve() -> None:
     assert (found.value, found.certainty) == (1, "proven")
 
 
-def test_a_dyad_that_may_turn_freely_gives_no_bound() -> None:
-    """With both bars of length 3 and the pivot at (2, 0), the tip passes there, and the dyad turns."""
-    assert dimension_bound((CRANK, U - C * S, *dyad_over(2))) is None
+def test_a_dyad_that_may_turn_freely() -> None:
+    """With both bars of length 3 and the pivot at (2, 0), the tip passes there, and the dyad turns about it.
+
+    That is a circle over one point, beside a curve, times the plane of u and v; without the crank beside all
+    that c, s and v may be.  A second dyad over it adds nothing, but for one that turns freely with it: a torus."""
+    systems = (
+        (CRANK, *dyad_over(2)),
+        (U - C * S, *dyad_over(2)),
+        (CRANK, *dyad_over(2), (U - X) ** 2 + (V - Y) ** 2 - 1, (U - 2) ** 2 + (V - 3) ** 2 - 1),
+        (CRANK, *dyad_over(2), (U - C) ** 2 + (V - S) ** 2 - 1, (U - 2) ** 2 + V**2 - 1),
+    )
+    found = [bound.value for equations in systems if (bound := dimension_bound(equations)) is not None]
+    assert found == [3, 3, 1, 2]
+
+
+def test_a_core_with_a_free_unknown() -> None:
     found = dimension_bound((CRANK, U - C * S, *dyad_over(5)))
     assert found is not None
     assert found.value == 2, "the curve, and v, which is in no equation"
