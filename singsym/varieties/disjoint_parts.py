@@ -6,6 +6,7 @@ Source: V(I + J) is the disjoint union of all V(I_k + J) where V(I) is that of a
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from itertools import combinations
 
 from singsym.effort import patience
@@ -36,7 +37,7 @@ def disjoint_parts(equations: Equations) -> tuple[Equations, ...]:
 
 def _parts(equations: Equations) -> Iterator[Equations]:
     for group in _groups(equations):
-        own = _apart(group)
+        own = remember("a few equations apart", (group[0].ring, frozenset(group)), partial(_apart, group))
         if own is not None:
             taken = set(group) - set(equations[0].ring.relations)
             others = tuple(p for p in equations if p not in taken)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations_with_replacement
+from math import comb
 from random import Random
 
 from flint import fmpq, fmpq_mat, fmpq_poly, fmpz_mat, nmod_mat
@@ -259,7 +260,8 @@ def _lift(
     if not place.dimension:
         constant = place.ring.constant
         return tuple(_value([constant(c) for c in f.coeffs()], form, place) for f, _ in factors)
-    eliminant = relation(place.basis, (*place.ring.gens[place.split :], form))
+    least = sum(f.degree() * power for f, power in factors)
+    eliminant = relation(place.basis, (*place.ring.gens[place.split :], form), least)
     if eliminant is None:
         return ()
     pieces = eliminant.factors()
@@ -287,11 +289,11 @@ def _value(coefficients: Sequence[Polynomial], form: Polynomial, place: Coordina
     return value
 
 
-def relation(basis: Sequence[Polynomial], forms: Sequence[Polynomial]) -> Polynomial | None:
+def relation(basis: Sequence[Polynomial], forms: Sequence[Polynomial], least: int = 1) -> Polynomial | None:
     """The polynomial of least total degree that vanishes on `forms` modulo a Groebner basis, or None.
 
-    None where it is too large.  Where the relations are a principal ideal it generates them.  It lives in a
-    ring t0, t1, ... of its own.
+    least: a degree that it has at least.  None where it is too large.  Where the relations are a principal
+    ideal it generates them.  It lives in a ring t0, t1, ... of its own.
 
     >>> x, y = Ring(("x", "y")).gens
     >>> relation((x**2 + y**2 - 1,), (x + y, x - y))
@@ -303,7 +305,7 @@ def relation(basis: Sequence[Polynomial], forms: Sequence[Polynomial]) -> Polyno
     exponents: list[Exponents] = [(0,) * len(forms)]
     values = {exponents[0]: ring.one}
     degree = 0
-    while True:
+    while comb(max(degree + 1, least) + len(forms), len(forms)) <= _LARGEST_SEARCH:
         degree += 1
         for chosen in combinations_with_replacement(range(len(forms)), degree):
             current().check("relation")
@@ -311,11 +313,10 @@ def relation(basis: Sequence[Polynomial], forms: Sequence[Polynomial]) -> Polyno
             i = chosen[-1]
             values[m] = forms_modulo.reduce(values[(*m[:i], m[i] - 1, *m[i + 1 :])] * forms[i])
             exponents.append(m)
-        if len(exponents) > _LARGEST_SEARCH:
-            return None
-        found = _dependency([values[m] for m in exponents])
+        found = _dependency([values[m] for m in exponents]) if degree >= least else None
         if found is not None:
             return own.from_dict({m: c for m, c in zip(exponents, found, strict=True) if c}).primitive()
+    return None
 
 
 def _dependency(rows: Sequence[Polynomial]) -> list[fmpq] | None:

@@ -21,6 +21,7 @@ from singsym.effort.budget import current
 from singsym.effort.verdict import Known, Verdict
 from singsym.elimination.elimination_orders import without_zeros_of
 from singsym.elimination.ideal import Ideal
+from singsym.elimination.memo import remember
 from singsym.kinematics.numerical_rank import numerical_rank
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.real.dimension.elimination_towers import is_dimension_at_most
@@ -84,8 +85,8 @@ def bound_above(system: RealSystem, dimension: int, beside: int = 0) -> Known[in
 def is_bounded(system: RealSystem, dimension: int, beside: int = 0) -> bool:
     """Whether a bound is proven by eliminating variables in turn, which is quick where it comes to an end."""
     with attempt("a bound of a dimension", patience.BOUND_BY_TOWERS.work):
-        equations, nonzero = system.closed_equations, system.nonzero
-        return is_dimension_at_most(system.ring, equations, nonzero, dimension + beside)
+        given = system.ring, system.closed_equations, tuple(system.nonzero), dimension + beside
+        return remember("a bound by elimination", given, lambda: is_dimension_at_most(*given))
     return False
 
 

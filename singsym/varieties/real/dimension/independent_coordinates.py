@@ -20,6 +20,7 @@ from singsym.effort.budget import current
 from singsym.effort.verdict import Verdict
 from singsym.elimination.elimination_orders import without_zeros_of
 from singsym.elimination.ideal import Ideal
+from singsym.elimination.memo import remember
 from singsym.elimination.modulo_primes import residues
 from singsym.polynomials import Polynomial, Ring
 from singsym.polynomials.unit_circles import Pair, half_angle_point, unit_circles
@@ -48,6 +49,12 @@ def are_dependent(system: RealSystem, dimension: int, circles: Iterable[Pair] = 
     >>> are_dependent(RealSystem(R, (x * y, x * z), exclusions=((x,),)), 1).is_yes
     True
     """
+    pairs = frozenset(circles)
+    key = system.ring, system.closed_equations, system.exclusions, dimension, pairs
+    return remember("dependent coordinates", key, lambda: _are_dependent(system, dimension, pairs))
+
+
+def _are_dependent(system: RealSystem, dimension: int, circles: Iterable[Pair]) -> Verdict:
     equations = system.closed_equations
     ring = used_ring(system.ring, equations)
     count = dimension + 1 - (len(system.ring.names) - len(ring.names))
