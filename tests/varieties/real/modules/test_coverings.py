@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
+from functools import partial
+
 import pytest
 
 from singsym.effort.budget import Budget, Undecided
 from singsym.polynomials import Equations, Ring
+from singsym.varieties.real.curves.real_curve import real_curve
 from singsym.varieties.real.modules.coverings import coverings
 from singsym.varieties.real.modules.curve_components import components_off
 from singsym.varieties.real.modules.module_points import points_of
 from singsym.varieties.real.modules.towers import towers
+from tests.laws.draws import SEED, draw
 
 R = Ring(("c", "s", "x", "y"))
 C, S, X, Y = R.gens
@@ -83,3 +88,23 @@ def test_two_dyads_one_upon_the_other() -> None:
     four = tuple(map(ring.convert, four_bar(1, 3, 2, 3)))
     dyad = ((u - x) ** 2 + (v - y) ** 2 - 81, (u - 5) ** 2 + v**2 - 81)
     assert components_off((*four, *dyad), (), Budget()) == 4
+
+
+@pytest.mark.parametrize("number", range(8))
+def test_as_many_components_as_when_traced(number: int) -> None:
+    """Four-bars with small lengths, every other one with a second dyad: `real_curve` traces the whole."""
+    random = draw("coverings", number)
+    length = partial(random.randint, 1, 4)
+    curve = four_bar(length(), length(), length(), length())
+    if number % 2:
+        ring = Ring(("c", "s", "x", "y", "u", "v"))
+        u, v = ring.gen("u"), ring.gen("v")
+        x, y = map(ring.gen, random.choice(("cs", "xy")))
+        dyad = (
+            (u - x) ** 2 + (v - y) ** 2 - random.randint(1, 5) ** 2,
+            (u - random.randint(-3, 5)) ** 2 + (v - random.randint(0, 2)) ** 2 - random.randint(1, 5) ** 2,
+        )
+        curve = (*map(ring.convert, curve), *dyad)
+    traced = real_curve(curve)
+    with suppress(Undecided, ValueError):
+        assert components_off(curve, (), Budget(20)) == traced.connected_components, f"SINGSYM_SEED={SEED}"
