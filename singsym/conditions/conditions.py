@@ -12,12 +12,14 @@ from math import prod
 from typing import TYPE_CHECKING
 
 from singsym.conditions.factor import Factor
+from singsym.conditions.incidences.incidences import Incidences
+from singsym.conditions.incidences.quantities import Quantity
 from singsym.conditions.named_quantities import PointNames
 from singsym.kinematics.nonzero import Certifier
 from singsym.kinematics.reduction import Reduction, reduce
 from singsym.minors.blocks import block_triangular
 from singsym.minors.determinant import TooManyTerms
-from singsym.minors.factored import FactoredDeterminant, Unit, determinant_factors
+from singsym.minors.factored import FactoredDeterminant, Unit, determinant_factors, factored
 from singsym.minors.rank import RankBlocks, alternatives, is_small, minor_factors, rank_blocks
 from singsym.polynomials import Polynomial, PolynomialMatrix
 
@@ -68,6 +70,7 @@ class Condition:
     everywhere: it holds in every configuration.
     units: the factors that were taken away, each with the reason.
     blocks: the blocks whose ranks add, with the constant, for (iii), (vi) and where a determinant is no way.
+    bracket: of a determinant with too many terms, what it is of named lines: it holds where this is zero.
     """
 
     label: str
@@ -79,6 +82,7 @@ class Condition:
     units: tuple[Unit, ...] = ()
     comparison: Comparison | None = None
     blocks: RankBlocks | None = None
+    bracket: Quantity | None = None
 
     @property
     def factors(self) -> tuple[Factor, ...]:
@@ -104,6 +108,8 @@ class Condition:
             lines.append("  in every configuration")
         elif self.alternatives is not None and not self.alternatives:
             lines.append("  in no configuration")
+        elif self.bracket is not None:
+            lines.append(f"  {self.bracket.text} = 0  ({self.bracket.words})")
         elif self.blocks is not None and self.alternatives is None:
             sizes = ", ".join("x".join(map(str, block.shape)) for block in self.blocks.blocks)
             lines.append(f"  by the rank {self.blocks.constant} + that of {sizes}, not written out")
@@ -122,6 +128,8 @@ class Condition:
             lines.append(r"& \text{in every configuration}")
         elif self.alternatives is not None and not self.alternatives:
             lines.append(r"& \text{in no configuration}")
+        elif self.bracket is not None:
+            lines.append(rf"& \iff\quad {self.bracket.latex} = 0")
         for place, alternative in enumerate(self.alternatives or ()):
             lead = r"\iff" if place == 0 else r"\text{or}"
             for factor in alternative:
@@ -169,7 +177,12 @@ class Conditions:
     @cached_property
     def names(self) -> PointNames:
         """The names for determinants of points."""
-        return PointNames(self.certifier)
+        return PointNames(self.certifier, self.incidences)
+
+    @cached_property
+    def incidences(self) -> Incidences:
+        """What the mechanism's architecture says of its determinants."""
+        return Incidences(self.equation, self.certifier)
 
     def matrix(self, name: str) -> PolynomialMatrix:
         """L, L_I, L_O or L_p of the reduced velocity equation."""
@@ -226,7 +239,8 @@ class Conditions:
             return self._rank_condition(label, name, N, f"rank {name} < {N}", latex)
         found = self._determinant(name)
         if found is None:
-            return Condition(label, _TYPES[label], plain, latex, blocks=self.rank_blocks(name))
+            blocks, own = self.rank_blocks(name), self.incidences.bracket_of(name)
+            return Condition(label, _TYPES[label], plain, latex, blocks=blocks, bracket=own)
         return Condition(
             label,
             _TYPES[label],
@@ -241,9 +255,9 @@ class Conditions:
         return Factor(polynomial, multiplicity, self.names.recognise(polynomial))
 
     def _determinant(self, name: str) -> FactoredDeterminant | None:
-        """The determinant, in the smaller of the forms that the full and the reduced matrix give.
+        """The determinant, in the smallest of the forms that the full and the reduced matrix and the legs give.
 
-        None where both have too many terms to be written out.
+        None where all have too many terms to be written out.
         """
         choices: list[FactoredDeterminant] = []
         for matrix in (self.matrix(name), getattr(self.equation, name)):
@@ -253,6 +267,8 @@ class Conditions:
                 choices.append(determinant_factors(matrix, self.certifier, self.most_terms))
             except TooManyTerms:
                 continue
+        if (parts := self.incidences.parts_of(name)) is not None:
+            choices.append(factored(parts, self.certifier))
         return min(choices, key=lambda choice: (not choice.vanishes, choice.size), default=None)
 
     def _rank_condition(self, label: str, name: str, required: int, plain: str, latex: str) -> Condition:

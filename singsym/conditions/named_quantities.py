@@ -10,31 +10,19 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from itertools import combinations, islice
+from itertools import chain, combinations, islice
 
 import sympy
 from flint import fmpq
 
+from singsym.conditions.incidences.grassmann_cayley import Vector, cross, dot, minus
+from singsym.conditions.incidences.incidences import Incidences
+from singsym.conditions.incidences.quantities import Quantity, symbol
 from singsym.kinematics.nonzero import Certifier
 from singsym.polynomials import Polynomial
 
 MANY = 5000
 """Not more than this many combinations of names are tried in space."""
-
-Vector = tuple[Polynomial, ...]
-
-
-@dataclass(frozen=True)
-class Quantity:
-    """A determinant or product of named points and axes, and what its vanishing says.
-
-    S_A in a planar determinant is the screw (1, y, -x) of a turn about the point A = (x, y); det[A B C D] in
-    space has a row (1, x, y, z) for each point.
-    """
-
-    latex: str
-    text: str
-    words: str
 
 
 @dataclass(frozen=True)
@@ -49,26 +37,6 @@ class GeometricName:
     radicand: int = 1
 
 
-def _symbol(name: str) -> str:
-    """A name as LaTeX: one letter with an index, or text."""
-    head, index = name[:1], name[1:].lstrip("_")
-    if head.isalpha() and (not index or index.isalnum()) and len(index) <= 2:
-        return rf"{head}_{{{index}}}" if index else head
-    return rf"\mathrm{{{name.replace('_', ' ')}}}"
-
-
-def _subtract(a: Vector, b: Vector) -> Vector:
-    return tuple(p - q for p, q in zip(a, b, strict=True))
-
-
-def _dot(a: Vector, b: Vector) -> Polynomial:
-    return sum((p * q for p, q in zip(a[1:], b[1:], strict=True)), start=a[0] * b[0])
-
-
-def _cross(a: Vector, b: Vector) -> Vector:
-    return tuple(a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2] for i in range(3))
-
-
 def _ratio(a: Polynomial, b: Polynomial) -> fmpq:
     """The rational number that one polynomial is of another with the same primitive form."""
     return a.terms()[0][1] / b.terms()[0][1]
@@ -79,7 +47,8 @@ class PointNames:
     """Recognises polynomials as determinants of a configuration space's named points and axes.
 
     A name is given only where the determinant is the polynomial times a factor proved nonzero, on the circles
-    and spheres of the configuration space; the name carries that factor.
+    and spheres of the configuration space; the name carries that factor.  What the mechanism's architecture
+    suggests is tried first.
 
     >>> from singsym.kinematics.placement import ConfigurationSpace
     >>> from singsym.polynomials import Ring
@@ -92,6 +61,7 @@ class PointNames:
     """
 
     certifier: Certifier
+    incidences: Incidences | None = None
 
     @cached_property
     def _points(self) -> dict[str, Vector]:
@@ -125,15 +95,15 @@ class PointNames:
     @cached_property
     def _lengths(self) -> tuple[tuple[Polynomial, Polynomial, Quantity], ...]:
         """Squared distances in space: a polynomial whose square is one vanishes exactly where it does."""
-        if len(next(iter(self._points.values()), ())) != 3:
-            return ()
-        return self._normal((_dot(vector, vector), quantity) for vector, quantity in self._on_lines())
+        first = self.incidences.squares() if self.incidences else ()
+        source = self._on_lines() if len(next(iter(self._points.values()), ())) == 3 else iter(())
+        return self._normal(chain(first, ((dot(vector, vector), quantity) for vector, quantity in source)))
 
     @cached_property
     def _candidates(self) -> tuple[tuple[Polynomial, Polynomial, Quantity], ...]:
         dimension = len(next(iter(self._points.values()), ()))
         source = self._planar() if dimension == 2 else self._spatial() if dimension == 3 else iter(())
-        return self._normal(source)
+        return self._normal(chain(self.incidences.values() if self.incidences else (), source))
 
     def _normal(
         self, source: Iterable[tuple[Polynomial, Quantity]]
@@ -145,7 +115,7 @@ class PointNames:
     def _planar(self) -> Iterator[tuple[Polynomial, Quantity]]:
         for names in combinations(sorted(self._points), 3):
             p, q, r = (self._points[name] for name in names)
-            a, b = _subtract(q, p), _subtract(r, p)
+            a, b = minus(q, p), minus(r, p)
             yield a[0] * b[1] - a[1] * b[0], _determinant(names, "collinear")
 
     def _on_lines(self) -> Iterator[tuple[Vector, Quantity]]:
@@ -154,20 +124,20 @@ class PointNames:
         axes = {n: tuple(v) for n, v in sorted(self.certifier.space.directions.items())}
         for triple in islice(combinations(names, 3), MANY // 10):
             first, *others = (self._points[name] for name in triple)
-            a, b = (_subtract(other, first) for other in others)
+            a, b = (minus(other, first) for other in others)
             if sum(len(e) for e in (*a, *b)) < 24:
                 p, q, r = triple
-                latex = r" \times ".join(rf"\overrightarrow{{{_symbol(p)}{_symbol(x)}}}" for x in (q, r))
+                latex = r" \times ".join(rf"\overrightarrow{{{symbol(p)}{symbol(x)}}}" for x in (q, r))
                 words = f"{', '.join(sorted(triple))} collinear"
-                yield _cross(a, b), Quantity(rf"\pm|{latex}|", f"±|{p}{q} x {p}{r}|", words)
+                yield cross(a, b), Quantity(rf"\pm|{latex}|", f"±|{p}{q} x {p}{r}|", words)
         for base, other in islice(combinations(names, 2), MANY // 10):
-            arm = _subtract(self._points[other], self._points[base])
+            arm = minus(self._points[other], self._points[base])
             for u, axis in axes.items():
                 if sum(len(e) for e in (*arm, *axis)) < 24:
-                    latex = rf"\overrightarrow{{{_symbol(base)}{_symbol(other)}}} \times {_symbol(u)}"
+                    latex = rf"\overrightarrow{{{symbol(base)}{symbol(other)}}} \times {symbol(u)}"
                     words = f"{other} on the axis {u} through {base}"
                     yield (
-                        _cross(arm, axis),
+                        cross(arm, axis),
                         Quantity(rf"\pm|{latex}|", f"±|{base}{other} x {u}|", words),
                     )
 
@@ -175,32 +145,32 @@ class PointNames:
         count = 0
         axes = {n: tuple(v) for n, v in sorted(self.certifier.space.directions.items())}
         for u, v in combinations(axes, 2):
-            latex = rf"{_symbol(u)} \cdot {_symbol(v)}"
-            yield _dot(axes[u], axes[v]), Quantity(latex, f"{u}.{v}", f"axes {u} and {v} perpendicular")
+            latex = rf"{symbol(u)} \cdot {symbol(v)}"
+            yield dot(axes[u], axes[v]), Quantity(latex, f"{u}.{v}", f"axes {u} and {v} perpendicular")
         for p, q in combinations(sorted(self._points), 2):
-            difference = _subtract(self._points[q], self._points[p])
+            difference = minus(self._points[q], self._points[p])
             for u in axes:
                 if (count := count + 1) > MANY:
                     return
-                latex = rf"\overrightarrow{{{_symbol(p)}{_symbol(q)}}} \cdot {_symbol(u)}"
+                latex = rf"\overrightarrow{{{symbol(p)}{symbol(q)}}} \cdot {symbol(u)}"
                 words = f"{p}{q} perpendicular to axis {u}"
-                yield _dot(difference, axes[u]), Quantity(latex, f"{p}{q}.{u}", words)
+                yield dot(difference, axes[u]), Quantity(latex, f"{p}{q}.{u}", words)
         for triple in islice(combinations(axes, 3), MANY // 10):
             one, two, three = (axes[name] for name in triple)
             if sum(len(e) for e in (*one, *two, *three)) < 24:
-                latex = rf"\det[{', '.join(map(_symbol, triple))}]"
+                latex = rf"\det[{', '.join(map(symbol, triple))}]"
                 words = f"axes {', '.join(triple[:2])} and {triple[2]} parallel to a plane"
-                yield _dot(one, _cross(two, three)), Quantity(latex, f"det[{' '.join(triple)}]", words)
+                yield dot(one, cross(two, three)), Quantity(latex, f"det[{' '.join(triple)}]", words)
         for names in combinations(sorted(self._points), 4):
             if (count := count + 1) > MANY:
                 return
             first, *others = (self._points[name] for name in names)
-            a, b, c = (_subtract(other, first) for other in others)
+            a, b, c = (minus(other, first) for other in others)
             if sum(len(e) for e in (*a, *b, *c)) < 60:
-                yield _dot(a, _cross(b, c)), _determinant(names, "coplanar")
+                yield dot(a, cross(b, c)), _determinant(names, "coplanar")
 
 
 def _determinant(names: tuple[str, ...], relation: str) -> Quantity:
-    inside = r"\, ".join(f"S_{{{_symbol(n)}}}" if relation == "collinear" else _symbol(n) for n in names)
+    inside = r"\, ".join(f"S_{{{symbol(n)}}}" if relation == "collinear" else symbol(n) for n in names)
     text = " ".join(f"S_{n}" if relation == "collinear" else n for n in names)
     return Quantity(rf"\det[{inside}]", f"det[{text}]", f"{', '.join(names)} {relation}")

@@ -54,6 +54,8 @@ def _entry(entry: Entry, found: Citations, written: NamedLengths, longest: int) 
         return f"{head}, as ({entry.same_as})."
     if condition.everywhere:
         return f"{head}, in every configuration."
+    if condition.bracket is not None:
+        return rf"{head}: ${condition.bracket.latex} = 0$, {escaped(condition.bracket.words)}."
     if condition.alternatives is None:
         return f"{head}."
     if not condition.alternatives:

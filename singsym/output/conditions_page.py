@@ -81,6 +81,8 @@ def _entry(entry: Entry, found: Citations, written: NamedLengths, expand: bool) 
         head += "; in every configuration"
     elif condition.alternatives is not None and not condition.alternatives:
         head += "; in no configuration"
+    elif condition.bracket is not None:
+        return [head, f"  if {condition.bracket.text} = 0  ({condition.bracket.words})"]
     elif condition.alternatives is None and condition.comparison is None:
         head += "; left as a rank: no determinant or list of minors is short enough"
     lines = [head]
