@@ -148,11 +148,13 @@ class Conditions:
 
     equation: the velocity equation as it is; reduction: the same after section 4.2.
     most_terms: determinants with more terms on the way are left as determinants.
+    naming: whether factors get their names.
     """
 
     equation: VelocityEquation
     reduction: Reduction
     most_terms: int = MOST_TERMS
+    naming: bool = True
 
     def __getitem__(self, label: str) -> Condition:
         """A condition by its label; raises `KeyError` naming the labels."""
@@ -246,13 +248,16 @@ class Conditions:
             _TYPES[label],
             plain,
             latex,
-            None if found.vanishes else tuple((self._factor(p, k),) for p, k in found.factors),
+            None if found.vanishes else tuple((self.factor(p, k),) for p, k in found.factors),
             found.vanishes,
             found.units,
         )
 
-    def _factor(self, polynomial: Polynomial, multiplicity: int = 1) -> Factor:
-        return Factor(polynomial, multiplicity, self.names.recognise(polynomial))
+    def factor(self, polynomial: Polynomial, multiplicity: int = 1) -> Factor:
+        """A polynomial as a factor of the mechanism's, with its name."""
+        if not self.naming:
+            return Factor(polynomial, multiplicity)
+        return Factor.named(polynomial, multiplicity, self.names)
 
     def _determinant(self, name: str) -> FactoredDeterminant | None:
         """The determinant, in the smallest of the forms that the full and the reduced matrix and the legs give.
@@ -292,7 +297,7 @@ class Conditions:
             _TYPES[label],
             plain,
             latex,
-            tuple(tuple(self._factor(p) for p in a) for a in _minimal(found)) if decided else None,
+            tuple(tuple(self.factor(p) for p in a) for a in _minimal(found)) if decided else None,
             everywhere,
             blocks=apart,
         )
@@ -310,11 +315,15 @@ def _largest_block(matrix: PolynomialMatrix) -> int:
 
 
 def conditions(
-    equation: VelocityEquation, reduction: Reduction | None = None, most_terms: int = MOST_TERMS
+    equation: VelocityEquation,
+    reduction: Reduction | None = None,
+    most_terms: int = MOST_TERMS,
+    naming: bool = True,
 ) -> Conditions:
     """The conditions of a velocity equation; each is worked out when it is asked for.
 
-    reduction: that of section 4.2, where it is at hand; most_terms: of determinants, on the way.
+    reduction: that of section 4.2, where it is at hand; most_terms: of determinants, on the way; naming: whether
+    factors get their names.
 
     >>> from singsym.kinematics.velocity import velocity_equation
     >>> from singsym.mechanism import load
@@ -322,4 +331,4 @@ def conditions(
     (vii) L_I is singular: RO or RPM, II or IIM
       det[S_B S_C S_D] = -By*Cx + Bx*Cy + 4*By - 4*Cy  (B, C, D collinear)
     """
-    return Conditions(equation, reduction or reduce(equation), most_terms)
+    return Conditions(equation, reduction or reduce(equation), most_terms, naming)

@@ -10,7 +10,8 @@ from functools import cached_property
 
 from flint import fmpq
 
-from singsym.conditions.named_quantities import GeometricName
+from singsym.conditions.incidences.joint_values import JointRoots
+from singsym.conditions.named_quantities import GeometricName, PointNames
 from singsym.polynomials import Polynomial
 from singsym.polynomials.latex import polynomial_latex
 
@@ -22,18 +23,29 @@ SHORT = 6
 class Factor:
     """A polynomial whose vanishing is one way to satisfy a condition, with its name if it has one.
 
-    said: what its vanishing says of the named points, where it has no name.
+    said: what its vanishing says of the named points, where it has no name; joint: where only one is in it.
     """
 
     polynomial: Polynomial
     multiplicity: int = 1
     name: GeometricName | None = None
     said: str = ""
+    joint: JointRoots | None = None
+
+    @classmethod
+    def named(cls, polynomial: Polynomial, multiplicity: int, names: PointNames) -> Factor:
+        """A polynomial with the name that it has, and the values of the joint that alone is in it."""
+        return cls(polynomial, multiplicity, names.recognise(polynomial), joint=names.joint_roots(polynomial))
+
+    @property
+    def incidence(self) -> str:
+        """What its vanishing says of the named points; empty where it was not recognised."""
+        return self.name.quantity.words if self.name else self.said
 
     @property
     def words(self) -> str:
-        """What its vanishing says of the named points; empty where it was not recognised."""
-        return self.name.quantity.words if self.name else self.said
+        """The same, and the values of the joint that alone is in it."""
+        return "; ".join(part for part in (self.incidence, self.joint.words if self.joint else "") if part)
 
     @property
     def is_plain(self) -> bool:
@@ -43,22 +55,18 @@ class Factor:
         scale = self.name.scale
         return self.name.radicand == 1 and scale.is_constant and abs(scale.constant) == 1
 
-    def written_as(self, other: Polynomial, ratio: fmpq) -> Factor:
-        """The same with another polynomial, `ratio` times this one; the name stays with it up to the sign.
+    def written_as(self, other: Polynomial, name: GeometricName | None) -> Factor:
+        """The same with another polynomial, a multiple of this one by a number, and what that is called.
 
-        >>> from singsym.conditions.named_quantities import Quantity
+        >>> from singsym.conditions.incidences.quantities import Quantity
         >>> from singsym.polynomials import Ring
         >>> x, g = Ring(("x", "g")).gens
         >>> name = GeometricName(Quantity("q", "q", "A, B, C collinear"), x.ring.one)
-        >>> one = Factor(x + 4, name=name)
-        >>> print(one, one.written_as(-x - g, fmpq(-1)), one.written_as(2 * x + g, fmpq(2)))
-        q = x + 4  (A, B, C collinear) q = x + g  (A, B, C collinear) 2*x + g  (A, B, C collinear)
+        >>> print(Factor(x + 4, name=name).written_as(x + g, None))
+        x + g  (A, B, C collinear)
         """
-        if self.name is not None and self.name.radicand == 1 and self.name.scale.is_constant:
-            kept = GeometricName(self.name.quantity, other.ring.constant(self.name.scale.constant / ratio))
-            if (found := Factor(other, self.multiplicity, kept)).is_plain:
-                return found
-        return Factor(other, self.multiplicity, None, self.words)
+        joint = self.joint.written_as(other) if self.joint else None
+        return Factor(other, self.multiplicity, name, self.incidence, joint)
 
     def latex(self, longest: int = 24) -> str:
         """The polynomial, cut where it is long; what a named quantity is on the configuration space."""
@@ -75,7 +83,7 @@ class Factor:
     def text(self, longest: int | None = None) -> str:
         r"""The same as plain text; longest: terms before polynomials are cut, None for no cut.
 
-        >>> from singsym.conditions.named_quantities import Quantity
+        >>> from singsym.conditions.incidences.quantities import Quantity
         >>> from singsym.polynomials import Ring
         >>> R = Ring(("x", "y"))
         >>> x, y = R.gens

@@ -10,19 +10,24 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from itertools import chain, combinations, islice
+from itertools import combinations, islice
 
 import sympy
 from flint import fmpq
 
 from singsym.conditions.incidences.grassmann_cayley import Vector, cross, dot, minus
 from singsym.conditions.incidences.incidences import Incidences
+from singsym.conditions.incidences.joint_values import JointRoots, joint_roots
 from singsym.conditions.incidences.quantities import Quantity, symbol
 from singsym.kinematics.nonzero import Certifier
 from singsym.polynomials import Polynomial
 
 MANY = 5000
 """Not more than this many combinations of names are tried in space."""
+
+
+_Candidates = tuple[tuple[Polynomial, Polynomial, Quantity], ...]
+"""Of each quantity its primitive form, by which it is found, and its value."""
 
 
 @dataclass(frozen=True)
@@ -76,38 +81,66 @@ class PointNames:
         own = self.certifier.normal_form(polynomial)
         wanted = own.primitive()
         square = self.certifier.normal_form(wanted * wanted).primitive()
-        for key, value, quantity in self._lengths:
-            if key == square:
-                ratio = _ratio(value, self.certifier.normal_form(own * own))
-                coefficient, root = sympy.sqrt(sympy.Rational(int(ratio.p), int(ratio.q))).as_coeff_Mul()
-                scale = polynomial.ring.constant(Fraction(int(coefficient.p), int(coefficient.q)))
-                return GeometricName(quantity, scale, int(root**2))
-        for key, value, quantity in self._candidates:
-            if key == wanted:
-                return GeometricName(quantity, polynomial.ring.constant(_ratio(value, own)))
-        for _, value, quantity in self._candidates:
-            if wanted.divides(value):
-                scale = value.exact_quotient(own)
-                if self.certifier.reason(scale) is not None:
-                    return GeometricName(quantity, scale)
+        for lengths, values in (self._suggested, self._own):
+            for key, value, quantity in lengths:
+                if key == square and (name := self._as_length(quantity, value, own)) is not None:
+                    return name
+            for key, value, quantity in values:
+                if key == wanted:
+                    return GeometricName(quantity, polynomial.ring.constant(_ratio(value, own)))
+            for _, value, quantity in values:
+                if wanted.divides(value):
+                    scale = value.exact_quotient(own)
+                    if self.certifier.reason(scale) is not None:
+                        return GeometricName(quantity, scale)
         return None
 
-    @cached_property
-    def _lengths(self) -> tuple[tuple[Polynomial, Polynomial, Quantity], ...]:
-        """Squared distances in space: a polynomial whose square is one vanishes exactly where it does."""
-        first = self.incidences.squares() if self.incidences else ()
-        source = self._on_lines() if len(next(iter(self._points.values()), ())) == 3 else iter(())
-        return self._normal(chain(first, ((dot(vector, vector), quantity) for vector, quantity in source)))
+    def called(self, polynomial: Polynomial, quantity: Quantity) -> GeometricName | None:
+        """How many times a polynomial a quantity is; None where it is no multiple, or none of those known here."""
+        own = self.certifier.normal_form(polynomial)
+        for lengths, values in (self._suggested, self._own):
+            for _, value, known in lengths:
+                if known.text == quantity.text:
+                    return self._as_length(quantity, value, own)
+            for _, value, known in values:
+                if known.text == quantity.text and own.divides(value):
+                    return GeometricName(quantity, value.exact_quotient(own))
+        return None
+
+    def _as_length(self, quantity: Quantity, value: Polynomial, own: Polynomial) -> GeometricName | None:
+        """A length with this square as the root of a rational times a polynomial; None where it is not that."""
+        square = self.certifier.normal_form(own * own)
+        if value.primitive() != square.primitive():
+            return None
+        ratio = _ratio(value, square)
+        coefficient, root = sympy.sqrt(sympy.Rational(int(ratio.p), int(ratio.q))).as_coeff_Mul()
+        scale = own.ring.constant(Fraction(int(coefficient.p), int(coefficient.q)))
+        return GeometricName(quantity, scale, int(root**2))
+
+    def joint_roots(self, polynomial: Polynomial) -> JointRoots | None:
+        """The joint that alone is in a factor, with the values at which this vanishes; None where there is none."""
+        values = self.incidences.equation.values if self.incidences else {}
+        return joint_roots(polynomial, values)
 
     @cached_property
-    def _candidates(self) -> tuple[tuple[Polynomial, Polynomial, Quantity], ...]:
+    def _suggested(self) -> tuple[_Candidates, _Candidates]:
+        """What the architecture suggests: squares of lengths, and values."""
+        if self.incidences is None:
+            return (), ()
+        return self._normal(self.incidences.squares()), self._normal(self.incidences.values())
+
+    @cached_property
+    def _own(self) -> tuple[_Candidates, _Candidates]:
+        """Squared distances in space, of which a polynomial may be the root, and determinants and products."""
         dimension = len(next(iter(self._points.values()), ()))
-        source = self._planar() if dimension == 2 else self._spatial() if dimension == 3 else iter(())
-        return self._normal(chain(self.incidences.values() if self.incidences else (), source))
+        if dimension == 2:
+            return (), self._normal(self._planar())
+        if dimension == 3:
+            squares = ((dot(vector, vector), quantity) for vector, quantity in self._on_lines())
+            return self._normal(squares), self._normal(self._spatial())
+        return (), ()
 
-    def _normal(
-        self, source: Iterable[tuple[Polynomial, Quantity]]
-    ) -> tuple[tuple[Polynomial, Polynomial, Quantity], ...]:
+    def _normal(self, source: Iterable[tuple[Polynomial, Quantity]]) -> _Candidates:
         """Primitive and normal forms of those that are not constant."""
         found = ((self.certifier.normal_form(value), quantity) for value, quantity in source)
         return tuple((v.primitive(), v, quantity) for v, quantity in found if not v.is_constant)

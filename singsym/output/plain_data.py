@@ -118,6 +118,9 @@ def condition_data(condition: Condition, lengths: NamedLengths | None = None) ->
                     "multiplicity": f.multiplicity,
                     "name": f.name.quantity.text if f.name else "",
                     "words": f.words,
+                    "joint": None
+                    if f.joint is None
+                    else {"name": f.joint.joint, "values": list(f.joint.values), "unit": f.joint.unit},
                     "latex": f.latex(),
                     "in_lengths": str(named) if lengths and (named := lengths.of(f.polynomial)) else None,
                 }

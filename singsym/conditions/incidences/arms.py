@@ -18,6 +18,9 @@ from singsym.kinematics.placement import PlacedJoint
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.polynomials import Polynomial
 
+LONGEST = 60
+"""Vectors with more terms in all entries are not squared."""
+
 
 @dataclass(frozen=True)
 class Axis:
@@ -32,7 +35,7 @@ class Axis:
 
 @dataclass(frozen=True, eq=False)
 class Arm:
-    """The axes of a serial chain of revolute joints in space, with the other named points.
+    """The revolute axes of a serial chain in space, with the other named points.
 
     point: that which the arm moves; velocities: of this point, one for each joint, where it is the output.
     """
@@ -43,15 +46,25 @@ class Arm:
     velocities: tuple[Vector, ...]
 
     def squares(self) -> Iterator[tuple[Polynomial, Quantity]]:
-        """Squared sines of the angles between axes, which vanish where these are parallel."""
-        for i, j in combinations(range(len(self.axes)), 2):
+        """Squared sines of the angles between axes, and squared distances of points from the first axis."""
+        pairs = combinations(range(len(self.axes)), 2)
+        for i, j in sorted(pairs, key=lambda pair: (pair[1] - pair[0], -pair[0])):
             one, two = self.axes[i], self.axes[j]
             cosine = self._normal(dot(one.along, two.along))
             relation = "in line" if self._common(one, two) else "parallel"
-            words = f"axes {one.joint} and {two.joint} {relation}"
+            wrist = "wrist: " if (i + 2, j + 1) == (j, len(self.axes)) and i > 0 else ""
+            words = f"{wrist}axes {one.joint} and {two.joint} {relation}"
             latex = rf"\pm|{symbol(one.direction)} \times {symbol(two.direction)}|"
             text = f"±|{one.direction} x {two.direction}|"
             yield 1 - cosine * cosine, Quantity(latex, text, words)
+        first = self.axes[0]
+        for name, place in self._after(first):
+            offset = tuple(map(self._normal, cross(minus(place, first.at), first.along)))
+            if sum(map(len, offset)) <= LONGEST:
+                latex = rf"\pm|{arrow(first.base, name)} \times {symbol(first.direction)}|"
+                text = f"±|{first.base}{name} x {first.direction}|"
+                words = f"shoulder: {self._called(name)} on the axis {first.joint}"
+                yield dot(offset, offset), Quantity(latex, text, words)
 
     def values(self) -> Iterator[tuple[Polynomial, Quantity]]:
         """Volumes of two directions and an arm between points: that of the elbow, of the shoulder; of all joints."""
@@ -59,10 +72,9 @@ class Arm:
             if not any(map(self._normal, cross(one.along, two.along))):
                 for name, place in self._after(two):
                     value = determinant([one.along, minus(two.at, one.at), minus(place, one.at)])
-                    said = f"{self._called(name)} in the plane of the axes {one.joint} and {two.joint}"
-                    yield value, self._volume(
-                        [one.direction], [(one.base, two.base), (one.base, name)], f"arm stretched or folded: {said}"
-                    )
+                    where = f"in the plane of the axes {one.joint} and {two.joint}"
+                    said = f"elbow: arm stretched or folded, {self._called(name)} {where}"
+                    yield value, self._volume([one.direction], [(one.base, two.base), (one.base, name)], said)
         for one, two in zip(self.axes, self.axes[1:], strict=False):
             meet = self._common(one, two)
             for name, place in self._after(two):
@@ -70,7 +82,8 @@ class Arm:
                 where = f"of the axes {one.joint} and {two.joint}"
                 if not meet:
                     where = f"through the axis {one.joint} parallel to the axis {two.joint}"
-                said = f"{self._called(name)} in the plane {where}"
+                shoulder = "shoulder: " if one is self.axes[0] else ""
+                said = f"{shoulder}{self._called(name)} in the plane {where}"
                 yield value, self._volume([one.direction, two.direction], [(one.base, name)], said)
         if len(self.velocities) == 3:
             joints = [axis.joint for axis in self.axes]
@@ -99,7 +112,9 @@ class Arm:
     def _through(self) -> dict[str, tuple[Axis, ...]]:
         """Which axes a point is on in all configurations."""
         return {
-            name: tuple(a for a in self.axes if not any(map(self._normal, cross(minus(place, a.at), a.along))))
+            name: tuple(
+                a for a in self.axes if not any(map(self._normal, cross(minus(place, a.at), a.along)))
+            )
             for name, place in self._points.items()
         }
 
@@ -113,7 +128,7 @@ class Arm:
         if len(axes) > 2 and axes[-3:] == self.axes[-3:]:
             return f"the wrist centre {name}"
         if len(axes) > 1:
-            return f"{name}, on the axes {listed([axis.joint for axis in axes])},"
+            return f"{name} on {listed([axis.joint for axis in axes])}"
         return name
 
     # -- polynomials -----------------------------------------------------------------------------------
@@ -127,31 +142,34 @@ class Arm:
 
 
 def arm(equation: VelocityEquation, certifier: Certifier) -> Arm | None:
-    """The arm that a mechanism is; None where it is no open chain of revolute joints in space.
+    """The arm that a mechanism is; None where it is no open chain of revolute and
+    prismatic joints in space.
 
     >>> from singsym.kinematics.velocity import velocity_equation
     >>> from singsym.mechanism import load
     >>> equation = velocity_equation(load("puma560"))
     >>> found = arm(equation, Certifier(equation.space))
     >>> [quantity.words for _, quantity in found.values()][0]
-    'arm stretched or folded: the wrist centre O4 in the plane of the axes J2 and J3'
+    'elbow: arm stretched or folded, the wrist centre O4 in the plane of the axes J2 and J3'
     """
     architecture = equation.architecture
     if architecture is None or len(equation.columns) != len(equation.rows) + len(architecture.joints):
         return None
     axes = []
     for joint in architecture.joints:
+        if len(joint.screws) == 1 and not any(joint.screws[0][:3]):
+            continue
         axis = _axis(joint, certifier)
         if axis is None or any(column.role == "passive" for column in equation.columns):
             return None
         axes.append(axis)
-    point = architecture.point
+    if not axes:
+        return None
     labels = [column.label for column in equation.columns]
     moving = ["output x", "output y", "output z"]
-    velocities = tuple(
-        tuple(-row[labels.index(axis.joint)] for row in equation.matrix.rows) for axis in axes
-    )
-    return Arm(certifier, tuple(axes), point, velocities if list(equation.rows) == moving else ())
+    velocities = tuple(tuple(-row[labels.index(axis.joint)] for row in equation.matrix.rows) for axis in axes)
+    whole = len(axes) == len(architecture.joints) and list(equation.rows) == moving
+    return Arm(certifier, tuple(axes), architecture.point, velocities if whole else ())
 
 
 def _axis(joint: PlacedJoint, certifier: Certifier) -> Axis | None:

@@ -14,7 +14,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from singsym.conditions.incidences.grassmann_cayley import Vector, determinant, minus, plane
+from singsym.conditions.incidences.grassmann_cayley import Vector, determinant, dot, plane
 from singsym.conditions.incidences.legs import legs
 from singsym.conditions.incidences.quantities import Quantity, arrow, bracket, listed, symbol
 from singsym.conditions.incidences.wrenches import Line, Support, support
@@ -77,7 +77,14 @@ class Platform:
         return self._parts is None and all(self.certifier.reason(scale) is not None for scale in scales)
 
     def values(self) -> Iterator[tuple[Polynomial, Quantity]]:
-        """Quantities of the lines that det L_I has as its factors, with their polynomials."""
+        """Quantities of the lines that determinants have as factors, with their polynomials."""
+        for own in self.supports:
+            for line in own.lines:
+                for u in own.leg.axes if line.kind == "line" and len(line.coordinates) == 6 else ():
+                    name = "".join(line.names)
+                    value = dot(line.coordinates[:3], self.certifier.space.directions[u])
+                    latex = rf"{arrow(*line.names)} \cdot {symbol(u)}"
+                    yield value, Quantity(latex, f"{name}.{u}", f"{name} perpendicular to axis {u}")
         if self._parts is None:
             return
         lines, single = self._free
@@ -108,7 +115,9 @@ class Platform:
         first: dict[Vector, str] = {}
         for name, place in self._points.items():
             first.setdefault(place, name)
-        p, q = (first[self._points[n]] if n in self._points and line.kind == "line" else n for n in line.names)
+        p, q = (
+            first[self._points[n]] if n in self._points and line.kind == "line" else n for n in line.names
+        )
         return Line(line.kind, (p, q), line.coordinates)
 
     def _planes(self) -> Iterator[tuple[Polynomial, Quantity]]:

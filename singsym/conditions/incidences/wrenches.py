@@ -113,7 +113,9 @@ def _scale(
     for columns in combinations(range(height), len(next(iter(own)))):
         rest = tuple(i for i in range(height) if i not in columns)
         pairs.append((passive.get(rest, zero) * (-1) ** sum(columns), own.get(columns, zero)))
-    whole, part = min((pair for pair in pairs if certifier.normal_form(pair[1])), key=lambda pair: len(pair[1]))
+    whole, part = min(
+        (pair for pair in pairs if certifier.normal_form(pair[1])), key=lambda pair: len(pair[1])
+    )
     if not part.divides(whole):
         return None
     scale = whole.exact_quotient(part)
