@@ -260,7 +260,7 @@ class Conditions:
         return Factor.named(polynomial, multiplicity, self.names)
 
     def _determinant(self, name: str) -> FactoredDeterminant | None:
-        """The determinant, in the smallest of the forms that the full and the reduced matrix and the legs give.
+        """The determinant, in the smallest of the forms that the full and reduced matrix and the legs give.
 
         None where all have too many terms to be written out.
         """
@@ -322,8 +322,8 @@ def conditions(
 ) -> Conditions:
     """The conditions of a velocity equation; each is worked out when it is asked for.
 
-    reduction: that of section 4.2, where it is at hand; most_terms: of determinants, on the way; naming: whether
-    factors get their names.
+    reduction: that of section 4.2, where it is at hand; most_terms: of determinants, on the way; naming:
+    whether factors get their names.
 
     >>> from singsym.kinematics.velocity import velocity_equation
     >>> from singsym.mechanism import load

@@ -8,8 +8,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-from flint import fmpq
-
 from singsym.conditions.incidences.joint_values import JointRoots
 from singsym.conditions.named_quantities import GeometricName, PointNames
 from singsym.polynomials import Polynomial

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import combinations, islice
+from math import prod
 
 import sympy
 from flint import fmpq
@@ -96,7 +97,7 @@ class PointNames:
         return None
 
     def called(self, polynomial: Polynomial, quantity: Quantity) -> GeometricName | None:
-        """How many times a polynomial a quantity is; None where it is no multiple, or none of those known here."""
+        """How many times a polynomial a quantity is; None where it is no multiple, or not known here."""
         own = self.certifier.normal_form(polynomial)
         for lengths, values in (self._suggested, self._own):
             for _, value, known in lengths:
@@ -108,17 +109,21 @@ class PointNames:
         return None
 
     def _as_length(self, quantity: Quantity, value: Polynomial, own: Polynomial) -> GeometricName | None:
-        """A length with this square as the root of a rational times a polynomial; None where it is not that."""
+        """A length with this square as a multiple of a polynomial; None where it is none."""
         square = self.certifier.normal_form(own * own)
-        if value.primitive() != square.primitive():
+        if not square.divides(value):
             return None
-        ratio = _ratio(value, square)
-        coefficient, root = sympy.sqrt(sympy.Rational(int(ratio.p), int(ratio.q))).as_coeff_Mul()
-        scale = own.ring.constant(Fraction(int(coefficient.p), int(coefficient.q)))
-        return GeometricName(quantity, scale, int(root**2))
+        ratio = value.exact_quotient(square)
+        if any(multiplicity % 2 for _, multiplicity in ratio.factors()):
+            return None
+        root = prod((f ** (k // 2) for f, k in ratio.factors()), start=own.ring.one)
+        number = ratio.exact_quotient(root * root).constant
+        coefficient, radical = sympy.sqrt(sympy.Rational(int(number.p), int(number.q))).as_coeff_Mul()
+        scale = root * Fraction(int(coefficient.p), int(coefficient.q))
+        return GeometricName(quantity, scale, int(radical**2))
 
     def joint_roots(self, polynomial: Polynomial) -> JointRoots | None:
-        """The joint that alone is in a factor, with the values at which this vanishes; None where there is none."""
+        """The joint that alone is in a factor, with the values where it vanishes; None where there is none."""
         values = self.incidences.equation.values if self.incidences else {}
         return joint_roots(polynomial, values)
 
@@ -131,7 +136,7 @@ class PointNames:
 
     @cached_property
     def _own(self) -> tuple[_Candidates, _Candidates]:
-        """Squared distances in space, of which a polynomial may be the root, and determinants and products."""
+        """Squared distances in space, whose root a polynomial may be, and determinants and products."""
         dimension = len(next(iter(self._points.values()), ()))
         if dimension == 2:
             return (), self._normal(self._planar())

@@ -177,7 +177,7 @@ def velocity_equation(mechanism: Mechanism, formulation: str = "auto") -> Veloci
 
 
 def _architecture(mechanism: Mechanism, placed: Placement) -> Architecture | None:
-    """What `Architecture` says of a mechanism; None for one with several outputs, or a joint's rate as one."""
+    """The joints between the links; None where there are several outputs, or a joint's rate is one."""
     output = mechanism.outputs[0]
     if len(mechanism.outputs) > 1 or isinstance(output, JointRate):
         return None

@@ -98,7 +98,7 @@ def conditions_data(name: str, conditions: Conditions, lengths: NamedLengths | N
 def condition_data(condition: Condition, lengths: NamedLengths | None = None) -> dict[str, Any]:
     """A condition with its factors, null in names of lengths where they have no such form.
 
-    alternatives: null where it is left as a rank; bracket: what a determinant with too many terms is of lines.
+    alternatives: null where it is left as a rank; bracket: what a long determinant is of lines.
     """
     alternatives, bracket = condition.alternatives, condition.bracket
     return {

@@ -83,7 +83,7 @@ class ShortForms:
 
     @cached_property
     def _echelon(self) -> tuple[tuple[tuple[int, ...], Polynomial], ...]:
-        """Sums of multiples of the equations, each with a monomial that is in none of the later, times 1 in it."""
+        """Sums of multiples of the equations, each with a monomial that is in none of the later."""
         found: list[tuple[tuple[int, ...], Polynomial]] = []
         for equation in self.equations:
             rest = equation

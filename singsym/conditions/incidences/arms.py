@@ -1,7 +1,8 @@
 """What is singular of a serial arm, by its axes and points: wrist, elbow, shoulder.
 
-Source: B. Siciliano, L. Sciavicco, L. Villani, G. Oriolo, *Robotics* (2009), section 3.3, for wrist, elbow and shoulder;
-K. H. Hunt (1978): an arm is singular where a line reciprocal to all joints exists, through the point that it moves.
+Source: B. Siciliano, L. Sciavicco, L. Villani, G. Oriolo, *Robotics* (2009), section 3.3, for wrist, elbow
+and shoulder; K. H. Hunt (1978): an arm is singular where a line reciprocal to all joints exists, through
+the point that it moves.
 """
 
 from __future__ import annotations
@@ -67,7 +68,7 @@ class Arm:
                 yield dot(offset, offset), Quantity(latex, text, words)
 
     def values(self) -> Iterator[tuple[Polynomial, Quantity]]:
-        """Volumes of two directions and an arm between points: that of the elbow, of the shoulder; of all joints."""
+        """Volumes of directions and arms that vanish at the elbow or shoulder; the velocities of all joints."""
         for one, two in zip(self.axes, self.axes[1:], strict=False):
             if not any(map(self._normal, cross(one.along, two.along))):
                 for name, place in self._after(two):

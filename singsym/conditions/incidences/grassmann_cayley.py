@@ -1,9 +1,9 @@
 """Points, lines and planes as vectors of polynomials, and their joins, meets and brackets.
 
-Source: N. L. White, "The bracket ring of a combinatorial geometry" (1983); P. Ben-Horin, M. Shoham, "Singularity
-condition of six-degree-of-freedom three-legged parallel robots based on Grassmann-Cayley algebra", IEEE Trans.
-Robotics 22 (2006) 577-590.  A twist is (w, v) with v at the origin, in the plane (w, vx, vy); a wrench is a force
-and its moment about the origin, in Plücker's order, so that a line is the wrench of a force along it.
+Source: N. L. White, "The bracket of 2-extensors" (1983); P. Ben-Horin, M. Shoham, "Singularity condition of
+six-degree-of-freedom three-legged parallel robots based on Grassmann-Cayley algebra" (2006).  A twist is (w, v)
+with v at the origin, in the plane (w, vx, vy); a wrench is a force and its moment about the origin, in
+Plücker's order, so that a line is the wrench of a force along it.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def cross(a: Vector, b: Vector) -> Vector:
 
 
 def along(point: Vector, direction: Vector) -> Vector:
-    """The Plücker vector of the line through a point along a direction: direction, moment about the origin."""
+    """The Plücker vector of a line through a point: its direction, and its moment about the origin."""
     if len(point) == 2:
         return (*direction, point[0] * direction[1] - point[1] * direction[0])
     return (*direction, *cross(point, direction))
@@ -49,7 +49,7 @@ def join(p: Vector, q: Vector) -> Vector:
 
 
 def plane(p: Vector, q: Vector, r: Vector) -> Vector:
-    """The plane through three points, p v q v r: its normal (q - p) x (r - p), and minus the normal times p."""
+    """The plane p v q v r through three points: its normal (q - p) x (r - p), and that times -p."""
     normal = cross(minus(q, p), minus(r, p))
     return (*normal, -dot(normal, p))
 

@@ -35,7 +35,7 @@ class Incidences:
         return arm(self.equation, self.certifier)
 
     def parts_of(self, name: str) -> tuple[Polynomial, ...] | None:
-        """Polynomials whose product is the determinant of one of the matrices; None where legs do not say it."""
+        """Polynomials whose product is the determinant of a matrix; None where legs do not say it."""
         return self.platform.polynomials if name == "L_I" and self.platform else None
 
     def bracket_of(self, name: str) -> Quantity | None:

@@ -1,6 +1,6 @@
 """The values of a joint at which a polynomial in its cosine and sine, or in its length, vanishes.
 
-Source: elementary: a cos q + b sin q = r cos(q - atan2(b, a)), r^2 = a^2 + b^2; half angles for higher degrees.
+Source: elementary: half angles, c = (1 - t^2) / (1 + t^2), s = 2 t / (1 + t^2) with t = tan(q/2).
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ class JointRoots:
 
 
 def joint_roots(polynomial: Polynomial, values: Mapping[str, JointValue]) -> JointRoots | None:
-    """The joint that alone is in a polynomial, with the values at which this vanishes; None where there is none.
+    """The joint that alone is in a polynomial, with the values where this vanishes; None where there is none.
 
     Only joints whose cosine and sine, or length, are variables are looked at, and polynomials over Q.
 
@@ -74,7 +74,7 @@ def joint_roots(polynomial: Polynomial, values: Mapping[str, JointValue]) -> Joi
 
 
 def _variables(value: JointValue) -> tuple[str, ...]:
-    """The variables that are a joint's cosine and sine, or its length; none where it has no such variables."""
+    """The variables that are a joint's cosine and sine, or its length; none where these are none."""
     parts = (value.length,) if value.length is not None else (value.cosine, value.sine)
     plain = [p for p in parts if p is not None and len(p.variables) == 1 and p == p.ring.gen(p.variables[0])]
     unscaled = value.scale is None or value.scale == 1
@@ -82,7 +82,7 @@ def _variables(value: JointValue) -> tuple[str, ...]:
 
 
 def _solved(polynomial: Polynomial, joint: str, variables: tuple[str, ...]) -> str:
-    """a cos + b sin + d = 0 with two of these terms, solved for the tangent, cosine or sine; "" for others."""
+    """a cos + b sin + d = 0, two terms of it, solved for the tangent, cosine or sine; "" for others."""
     cosine, sine = variables
     whole = polynomial.ring.gen(cosine), polynomial.ring.gen(sine)
     a, b = (polynomial.coefficient(x, 1) for x in variables)

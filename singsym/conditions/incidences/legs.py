@@ -76,7 +76,7 @@ def legs(equation: VelocityEquation) -> tuple[Leg, ...]:
 
 
 def _chain(architecture: Architecture, links: frozenset[str]) -> Leg | None:
-    """Some links with the joints around them as a chain from the ground to the moved link; None if it is not."""
+    """Links with the joints around them as a chain from the ground to the moved link; None if they are none."""
     left = [joint for joint in architecture.joints if {joint.first, joint.second} & links]
     if len(left) != len(links) + 1:
         return None

@@ -1,11 +1,12 @@
 """The determinant of L_I of a platform on legs as a bracket of the lines that its legs withstand.
 
-Source: J.-P. Merlet, "Singular configurations of parallel manipulators and Grassmann geometry" (1989); P. Ben-Horin,
-M. Shoham (2006), whose six lines, two and two through a point, are dependent where four planes meet in a point.
+Source: J.-P. Merlet, "Singular configurations of parallel manipulators and Grassmann geometry" (1989);
+P. Ben-Horin, M. Shoham (2006), whose six lines, two and two through a point, are dependent where four planes
+meet in a point.
 
-A velocity m with L_I m = 0 is one of the platform and the passive joints with which all legs agree.  So det L_I is, up
-to its sign, that of a matrix with the rows of all legs, a column for each component of the platform's twist and one
-for each passive velocity; by the lemma of `wrenches` it is det[lines] times the legs' scales.
+A velocity m with L_I m = 0 is one of the platform and the passive joints with which all legs agree.  So det L_I
+is, up to its sign, that of a matrix with the rows of all legs, a column for each component of the platform's
+twist and one for each passive velocity; by the lemma of `wrenches` it is det[lines] times the legs' scales.
 """
 
 from __future__ import annotations
@@ -121,7 +122,7 @@ class Platform:
         return Line(line.kind, (p, q), line.coordinates)
 
     def _planes(self) -> Iterator[tuple[Polynomial, Quantity]]:
-        """Of six lines, two and two through a point, the meet of their three planes and of that of the points."""
+        """Of six lines, two and two through a point, the meet of their planes and of that of the points."""
         if len(self.lines) != 6 or any({*line.names} - self._points.keys() for line in self.lines):
             return
         for pairs in _pairings(self.lines):
@@ -151,7 +152,7 @@ class Platform:
 
 
 def platform(equation: VelocityEquation, certifier: Certifier) -> Platform | None:
-    """The link that a mechanism moves, on its legs; None where lines through their points do not say all of L_I.
+    """The moved link on its legs; None where lines through their points do not say all of L_I.
 
     >>> from singsym.kinematics.velocity import velocity_equation
     >>> from singsym.mechanism import load

@@ -1,7 +1,7 @@
 """Brackets, products and incidences of named points, lines and axes: how they are printed.
 
-Source: the notation of Ben-Horin and Shoham (2006) for brackets, of Zlatanov, Fenton, Benhabib (1998), section 3.3,
-for determinants of planar screws.
+Source: the notation of Ben-Horin and Shoham (2006) for brackets, of Zlatanov, Fenton, Benhabib (1998),
+section 3.3, for determinants of planar screws.
 """
 
 from __future__ import annotations
@@ -15,10 +15,11 @@ class Quantity:
     """A determinant or product of named points and axes, and what its vanishing says.
 
     S_A in a planar determinant is the screw (1, y, -x) of a turn about the point A = (x, y); det[A B C D] in
-    space has a row (1, x, y, z) for each point.  AB beside other lines in a determinant is the Plücker vector of
-    a line, in the plane (direction, moment), in space that of six entries; among three in space it is the vector
-    from A to B, and uxv the vector product of two axes.  A:u is the line through A along u.  ABC among four is
-    the plane through three points, with the normal AB x AC and minus its product with A.
+    space has a row (1, x, y, z) for each point.  AB among three in the plane, or among six in space, is
+    the line through A and B by its Plücker vector: B - A, and its moment A x B about the origin.  A:u is
+    the line through A along the axis u, :u the couple about it.  Among three in space AB is the vector B -
+    A, uxv the vector product of two axes, v_J the velocity of the moved point where the joint J alone
+    turns at the rate 1.  ABC among four is the plane with the normal AB x AC, and minus its product with A.
     """
 
     latex: str

@@ -1,12 +1,13 @@
 """The wrenches that a leg with locked inputs withstands, as lines through its points.
 
-Source: K. H. Hunt, *Kinematic Geometry of Mechanisms* (1978); D. Zlatanov, R. G. Fenton, B. Benhabib (1998), section
-4.1: a wrench that is reciprocal to all passive joints of a leg.
+Source: K. H. Hunt, *Kinematic Geometry of Mechanisms* (1978); D. Zlatanov, R. G. Fenton, B. Benhabib (1998),
+section 4.1: a wrench that is reciprocal to all passive joints of a leg.
 
-Lemma (reciprocal rows).  Let P have d columns in h rows, W have h - d rows with W P = 0.  Where some h - d columns
-of W have a determinant that is not the zero polynomial, each d-minor of P is, up to the sign of Laplace's expansion,
-one and the same polynomial k times the minor of W in the other columns.  So det [E | P] = k det(W E) up to the sign,
-for any E of h - d columns, and for several legs side by side the same with the product of their k.
+Lemma (reciprocal rows).  Let P have d columns in h rows, and W h - d rows in as many columns, with W P = 0.  Let
+each d-minor of P be, up to the sign of Laplace's expansion, k times the minor of W in the other places,
+with one k for all.  Then det [E | P] = k det(W E) up to the sign, for any E of h - d columns: both are expanded by these
+minors, the right side by Cauchy and Binet.  For several legs, one below the other in E, the same holds
+with the product of their k.  That k is the same for all minors is checked in each.
 """
 
 from __future__ import annotations
@@ -119,6 +120,5 @@ def _scale(
     if not part.divides(whole):
         return None
     scale = whole.exact_quotient(part)
-    if any(certifier.normal_form(big - scale * small) for big, small in pairs):
-        return None
-    return scale
+    agreed = not any(certifier.normal_form(big - scale * small) for big, small in pairs)
+    return scale if agreed else None
