@@ -6,7 +6,7 @@ Source: Zlatanov, Fenton, Benhabib (1998), the propositions of section 2.3, and 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import prod
 from typing import TYPE_CHECKING
@@ -243,12 +243,15 @@ class Conditions:
         if found is None:
             blocks, own = self.rank_blocks(name), self.incidences.bracket_of(name)
             return Condition(label, _TYPES[label], plain, latex, blocks=blocks, bracket=own)
+        factors = tuple(self.factor(p, k) for p, k in found.factors)
+        if name == "L_O" and len(factors) == 1 and not factors[0].words and self.naming:
+            factors = (replace(factors[0], said=self.incidences.output_at_rest),)
         return Condition(
             label,
             _TYPES[label],
             plain,
             latex,
-            None if found.vanishes else tuple((self.factor(p, k),) for p, k in found.factors),
+            None if found.vanishes else tuple((factor,) for factor in factors),
             found.vanishes,
             found.units,
         )

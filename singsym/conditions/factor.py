@@ -5,8 +5,10 @@ Source: Zlatanov, Fenton, Benhabib (1998), sections 3 and 4, print conditions as
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from functools import cached_property
+from math import prod
 
 from singsym.conditions.incidences.joint_values import JointRoots
 from singsym.conditions.named_quantities import GeometricName, PointNames
@@ -71,11 +73,9 @@ class Factor:
         if self.name is None or self._multiple is not None:
             shown = polynomial_latex(self._multiple or self.polynomial, longest)
             return f"{self.name.quantity.latex} = {shown}" if self.name else shown
-        scale = polynomial_latex(self.name.scale, SHORT)
-        if len(self.name.scale) > 1:
-            scale = rf"\left({scale}\right)"
         root = rf"\sqrt{{{self.name.radicand}}}" if self.name.radicand != 1 else ""
-        outer = r"\, ".join(part for part in (scale, root) if part not in ("", "1"))
+        parts = [_in_brackets(polynomial_latex(f, SHORT), f, r"\left(", r"\right)") for f in self._scale]
+        outer = r"\, ".join(part for part in (*parts, root) if part not in ("", "1"))
         return rf"{self.name.quantity.latex} = {outer}({polynomial_latex(self.polynomial, longest)})"
 
     def text(self, longest: int | None = None) -> str:
@@ -92,14 +92,23 @@ class Factor:
         if self.name is None or self._multiple is not None:
             shown = _text(self._multiple or self.polynomial, longest)
             return f"{self.name.quantity.text} = {shown}" if self.name else shown
-        scale = _text(self.name.scale, longest)
-        if len(self.name.scale) > 1:
-            scale = f"({scale})"
         root = f"sqrt({self.name.radicand})" if self.name.radicand != 1 else ""
-        outer = [part for part in (scale, root) if part not in ("", "1")]
-        shown = _text(self.polynomial, longest)
-        whole = "*".join((*outer, f"({shown})" if len(self.polynomial) > 1 else shown))
+        parts = [_in_brackets(_text(f, longest), f) for f in self._scale]
+        outer = [part for part in (*parts, root) if part not in ("", "1")]
+        whole = "*".join((*outer, _in_brackets(_text(self.polynomial, longest), self.polynomial)))
         return f"{self.name.quantity.text} = {whole}"
+
+    @property
+    def _scale(self) -> tuple[Polynomial, ...]:
+        """The scale of the name as a number and polynomials without common factors of terms."""
+        if self.name is None:
+            return ()
+        factors = [f for f, k in self.name.scale.factors() for _ in range(k)]
+        product = prod(factors, start=self.name.scale.ring.one)
+        number = self.name.scale.exact_quotient(product)
+        single = [f for f in factors if len(f) == 1]
+        monomial = prod(single, start=number)
+        return (monomial, *(f for f in factors if len(f) > 1))
 
     @cached_property
     def _multiple(self) -> Polynomial | None:
@@ -113,5 +122,15 @@ class Factor:
         return f"{self.text()}  ({self.words})" if self.words else self.text()
 
 
+def _in_brackets(shown: str, polynomial: Polynomial, left: str = "(", right: str = ")") -> str:
+    """A polynomial as a factor of a product."""
+    return f"{left}{shown}{right}" if len(polynomial) > 1 else shown
+
+
 def _text(polynomial: Polynomial, longest: int | None) -> str:
-    return str(polynomial) if longest is None else polynomial.short_text(longest)
+    """A polynomial as text, constants by what they are."""
+    shown = str(polynomial) if longest is None else polynomial.short_text(longest)
+    for constant in polynomial.ring.constants:
+        root = constant.text if constant.text.endswith(")") else f"({constant.text or constant.name})"
+        shown = re.sub(rf"\b{re.escape(constant.name)}\b", root.replace("**", "^"), shown)
+    return shown

@@ -123,7 +123,7 @@ class PointNames:
         return GeometricName(quantity, scale, int(radical**2))
 
     def joint_roots(self, polynomial: Polynomial) -> JointRoots | None:
-        """The joint that alone is in a factor, with the values where it vanishes; None where there is none."""
+        """The joint that alone is in a factor, with the values where it vanishes; else None."""
         values = self.incidences.equation.values if self.incidences else {}
         return joint_roots(polynomial, values)
 

@@ -90,8 +90,9 @@ class PlacedJoint:
 
 @dataclass(frozen=True)
 class Architecture:
-    """How a mechanism hangs together: its joints between links, and the link and point that it moves.
+    """How a mechanism hangs together: its joints between links.
 
+    moved, point: the link and point whose velocity is the output, or "".
     coupled: gears, belts or racks tie rates of joints to each other.
     """
 

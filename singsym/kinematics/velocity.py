@@ -176,11 +176,8 @@ def velocity_equation(mechanism: Mechanism, formulation: str = "auto") -> Veloci
     )
 
 
-def _architecture(mechanism: Mechanism, placed: Placement) -> Architecture | None:
-    """The joints between the links; None where there are several outputs, or a joint's rate is one."""
-    output = mechanism.outputs[0]
-    if len(mechanism.outputs) > 1 or isinstance(output, JointRate):
-        return None
+def _architecture(mechanism: Mechanism, placed: Placement) -> Architecture:
+    """The joints between the links, and what is moved where that is one link."""
     space, idle = placed.space, dict(placed.idle_spins)
     joints = tuple(
         PlacedJoint(
@@ -195,8 +192,10 @@ def _architecture(mechanism: Mechanism, placed: Placement) -> Architecture | Non
         )
         for joint in mechanism.joints
     )
-    point = output.point if output.point in space.points else ""
-    return Architecture(mechanism.ground, joints, output.link, point, bool(mechanism.couplings))
+    moved, point = "", ""
+    if len(mechanism.outputs) == 1 and not isinstance(output := mechanism.outputs[0], JointRate):
+        moved, point = output.link, output.point if output.point in space.points else ""
+    return Architecture(mechanism.ground, joints, moved, point, bool(mechanism.couplings))
 
 
 def _components(output: Output) -> tuple[str, ...]:

@@ -114,7 +114,7 @@ def _words(factor: Factor, written: NamedLengths) -> str:
 
 def _cited(factors: list[Factor], found: Citations, written: NamedLengths) -> str:
     """Factors that vanish together, by their words, by short polynomials and by names."""
-    said = [f.words for f in factors if f.words]
+    said = [f.incidence or f.words for f in factors if f.words]
     equal = [f"{written.factor(f).polynomial}" for f in factors if is_short(f)]
     equal += [f"f{number}" for number in found.numbers_of(factors)]
     return " and ".join([*said, *([" = ".join([*equal, "0"])] if equal else [])])

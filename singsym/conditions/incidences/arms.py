@@ -68,7 +68,7 @@ class Arm:
                 yield dot(offset, offset), Quantity(latex, text, words)
 
     def values(self) -> Iterator[tuple[Polynomial, Quantity]]:
-        """Volumes of directions and arms that vanish at the elbow or shoulder; the velocities of all joints."""
+        """Volumes that vanish at the elbow or the shoulder; that of the velocities of all joints."""
         for one, two in zip(self.axes, self.axes[1:], strict=False):
             if not any(map(self._normal, cross(one.along, two.along))):
                 for name, place in self._after(two):

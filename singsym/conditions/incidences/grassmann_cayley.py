@@ -1,9 +1,9 @@
 """Points, lines and planes as vectors of polynomials, and their joins, meets and brackets.
 
 Source: N. L. White, "The bracket of 2-extensors" (1983); P. Ben-Horin, M. Shoham, "Singularity condition of
-six-degree-of-freedom three-legged parallel robots based on Grassmann-Cayley algebra" (2006).  A twist is (w, v)
-with v at the origin, in the plane (w, vx, vy); a wrench is a force and its moment about the origin, in
-Plücker's order, so that a line is the wrench of a force along it.
+six-degree-of-freedom three-legged parallel robots based on Grassmann-Cayley algebra" (2006).  A twist
+is (w, v) with v at the origin, in the plane (w, vx, vy); a wrench is a force and its moment about the origin,
+in Plücker's order, so that a line is the wrench of a force along it.
 """
 
 from __future__ import annotations

@@ -12,6 +12,7 @@ from functools import cached_property
 from singsym.conditions.incidences.arms import Arm, arm
 from singsym.conditions.incidences.platforms import Platform, platform
 from singsym.conditions.incidences.quantities import Quantity
+from singsym.conditions.incidences.slides import beside_slides
 from singsym.kinematics.nonzero import Certifier
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.polynomials import Polynomial
@@ -54,3 +55,19 @@ class Incidences:
             yield from self.arm.values()
         elif self.platform is not None:
             yield from self.platform.values()
+        yield from beside_slides(self.equation)
+
+    @property
+    def output_at_rest(self) -> str:
+        """What L_O being singular says of a planar mechanism with one output component, in words; else ""."""
+        found, rows = self.equation.architecture, self.equation.rows
+        planar = all(len(place) == 2 for place in self.equation.space.points.values())
+        outputs = [row.removeprefix("output ") for row in rows if row.startswith("output ")]
+        if found is None or not found.moved or not planar or len(outputs) != 1:
+            return ""
+        if outputs[0] == "w":
+            return f"{found.moved} does not turn"
+        along = outputs[0].removeprefix("v")
+        return (
+            f"pole of {found.moved} on the line through {found.point} along {along}, or {found.moved} at rest"
+        )

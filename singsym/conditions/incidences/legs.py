@@ -54,7 +54,7 @@ def legs(equation: VelocityEquation) -> tuple[Leg, ...]:
     [['A1', 'B1', 'C1'], ['A2', 'B2', 'C2'], ['A3', 'B3', 'C3']]
     """
     architecture = equation.architecture
-    if architecture is None or architecture.coupled or architecture.moved == architecture.ground:
+    if architecture is None or architecture.coupled or architecture.moved in ("", architecture.ground):
         return ()
     graph = networkx.MultiGraph()
     for joint in architecture.joints:
@@ -76,7 +76,7 @@ def legs(equation: VelocityEquation) -> tuple[Leg, ...]:
 
 
 def _chain(architecture: Architecture, links: frozenset[str]) -> Leg | None:
-    """Links with the joints around them as a chain from the ground to the moved link; None if they are none."""
+    """Links with the joints around them as a chain from the ground to the moved link; else None."""
     left = [joint for joint in architecture.joints if {joint.first, joint.second} & links]
     if len(left) != len(links) + 1:
         return None

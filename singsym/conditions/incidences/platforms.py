@@ -4,9 +4,10 @@ Source: J.-P. Merlet, "Singular configurations of parallel manipulators and Gras
 P. Ben-Horin, M. Shoham (2006), whose six lines, two and two through a point, are dependent where four planes
 meet in a point.
 
-A velocity m with L_I m = 0 is one of the platform and the passive joints with which all legs agree.  So det L_I
-is, up to its sign, that of a matrix with the rows of all legs, a column for each component of the platform's
-twist and one for each passive velocity; by the lemma of `wrenches` it is det[lines] times the legs' scales.
+A velocity m with L_I m = 0 is one of the platform and the passive joints with which all legs agree.  So
+det L_I is, up to its sign, that of a matrix with the rows of all legs, a column for each component of the
+platform's twist and one for each passive velocity; by the lemma of `wrenches` it is det[lines] times the
+scales of the legs.
 """
 
 from __future__ import annotations

@@ -15,11 +15,12 @@ class Quantity:
     """A determinant or product of named points and axes, and what its vanishing says.
 
     S_A in a planar determinant is the screw (1, y, -x) of a turn about the point A = (x, y); det[A B C D] in
-    space has a row (1, x, y, z) for each point.  AB among three in the plane, or among six in space, is
-    the line through A and B by its Plücker vector: B - A, and its moment A x B about the origin.  A:u is
-    the line through A along the axis u, :u the couple about it.  Among three in space AB is the vector B -
-    A, uxv the vector product of two axes, v_J the velocity of the moved point where the joint J alone
-    turns at the rate 1.  ABC among four is the plane with the normal AB x AC, and minus its product with A.
+    space has a row (1, x, y, z) for each point.  AB among three in the plane, or among six in space, is the
+    line through A and B by its Plücker vector: B - A, and its moment A x B about the origin; A:u is the line
+    through A along the axis u, :u the couple about it.  Among three in space AB is the vector B - A, uxv is
+    the vector product of two axes, v_J the velocity of the moved point where the joint J turns alone at the
+    rate 1.  ABC among four is the plane with the normal AB x AC, and minus its product with A.  u_P is the
+    direction of the slide P as its column in L has it.
     """
 
     latex: str

@@ -3,11 +3,11 @@
 Source: K. H. Hunt, *Kinematic Geometry of Mechanisms* (1978); D. Zlatanov, R. G. Fenton, B. Benhabib (1998),
 section 4.1: a wrench that is reciprocal to all passive joints of a leg.
 
-Lemma (reciprocal rows).  Let P have d columns in h rows, and W h - d rows in as many columns, with W P = 0.  Let
-each d-minor of P be, up to the sign of Laplace's expansion, k times the minor of W in the other places,
-with one k for all.  Then det [E | P] = k det(W E) up to the sign, for any E of h - d columns: both are expanded by these
-minors, the right side by Cauchy and Binet.  For several legs, one below the other in E, the same holds
-with the product of their k.  That k is the same for all minors is checked in each.
+Lemma (reciprocal rows).  Let P have d columns in h rows, and W h - d rows in as many columns, with W P = 0.
+Let each d-minor of P be, up to the sign of Laplace's expansion, k times the minor of W in the other places,
+with one k for all.  Then det [E | P] = k det(W E) up to the sign, for any E of h - d columns: both are
+expanded by these minors, the right side by Cauchy and Binet.  For several legs, one below the other in E, the
+same holds with the product of their k.  That k is the same for all minors is checked in each.
 """
 
 from __future__ import annotations
