@@ -19,12 +19,12 @@ def printed(name: str) -> list[str]:
 
 
 def test_the_puma() -> None:
-    """Its wrist is spherical, axes 2 and 3 are parallel, 1 and 2 meet; atan(d4/a3) = atan(4318/203) = 87.3 deg."""
+    """Its wrist is spherical, axes 2 and 3 are parallel, 1 and 2 meet; atan(4318/203) = 87.3 deg."""
     wrist, elbow, shoulder = printed("puma560")
     assert wrist == "±|z3 x z5| = s5  (wrist: axes J4 and J6 in line; J5 = 0 or 180 deg)"
     assert elbow == (
-        "det[z1 O1O2 O1O4] = a2*(a3*s3 + d4*c3)  (elbow: arm stretched or folded, the wrist centre O4 in the plane "
-        "of the axes J2 and J3; tan J3 = -d4/a3, J3 ≈ -87.3 or 92.7 deg)"
+        "det[z1 O1O2 O1O4] = a2*(a3*s3 + d4*c3)  (elbow: arm stretched or folded, the wrist centre O4 in "
+        "the plane of the axes J2 and J3; tan J3 = -d4/a3, J3 ≈ -87.3 or 92.7 deg)"
     )
     assert shoulder.startswith("det[z0 z1 O0O4] = a2*c2 + a3*c2*c3")
     assert shoulder.endswith("(shoulder: the wrist centre O4 in the plane of the axes J1 and J2)")

@@ -1,4 +1,4 @@
-"""Values of joints: against NumPy, by bisection of the polynomial on the circle, and well-known angles by hand."""
+"""Values of joints: well-known angles by hand, others by the signs of the polynomial on the circle."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def words(polynomial: Polynomial) -> str | None:
     ],
 )
 def test_exact_and_rounded_values(polynomial: Polynomial, said: str) -> None:
-    """tan 36.87 = 3/4, cos 70.53 = 1/3, sin 19.47 = 1/3; what is rounded has another sign than what is exact."""
+    """tan 36.87 = 3/4, cos 70.53 = 1/3, sin 19.47 = 1/3; what is rounded has a sign of its own."""
     assert words(polynomial) == said
 
 

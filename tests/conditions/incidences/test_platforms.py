@@ -1,4 +1,4 @@
-"""Brackets of platforms: det L_I is the bracket times the legs' scales, worked out by numpy at random configurations.
+"""Brackets of platforms: det L_I is the bracket times the legs' scales, by numpy at random configurations.
 
 Source: independent of the algebra: L_I as numbers, lines from the places of the named points.  What is
 expected to be named: Merlet (1989) for six lines, Ben-Horin and Shoham (2006) for four planes, and the
@@ -71,7 +71,7 @@ def test_the_printed_equality(name: str) -> None:
 
 @pytest.mark.parametrize("name", [*SAID, "stewart-gough"])
 def test_the_determinant_is_the_bracket_times_the_scales(name: str) -> None:
-    """The bracket from the places of points; the sign depends on the order of rows and is the same throughout."""
+    """The bracket from the places of points; the sign is that of the order of rows, the same throughout."""
     equation, platform = found(name).equation, found(name).incidences.platform
     assert platform is not None
     ratios = []
@@ -85,7 +85,7 @@ def test_the_determinant_is_the_bracket_times_the_scales(name: str) -> None:
 
 
 def test_a_bracket_with_too_many_terms_is_the_condition() -> None:
-    """The general platform: (4) is left as a rank, and says that it holds where six lines are in a complex."""
+    """The general platform: (4) is left as a rank, and says that it holds for six lines in a complex."""
     condition = found("stewart-gough")["4"]
     assert condition.alternatives is None
     assert condition.bracket is not None
@@ -103,7 +103,7 @@ def test_four_planes_and_six_lines_are_the_same_number() -> None:
 
 
 def test_rods_of_a_delta_by_hand() -> None:
-    """The rods are C_i - B_i with the places of the library's file: (x - 2, y, z - p1), (x + 6/5, y - 8/5, z - p2),
+    """The rods are C_i - B_i with the library's places: (x - 2, y, z - p1), (x + 6/5, y - 8/5, z - p2),
     (x + 6/5, y + 8/5, z - p3); the factor is their determinant up to a number."""
     (factor,) = found("linear-delta")["4"].factors
     x, y, z, *p = factor.polynomial.ring.gens
