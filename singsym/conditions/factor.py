@@ -44,7 +44,12 @@ class Factor:
 
     @property
     def words(self) -> str:
-        """The same, and the values of the joint that alone is in it."""
+        """The same, or else the values of the joint that alone is in it."""
+        return self.incidence or (self.joint.words if self.joint else "")
+
+    @property
+    def explained(self) -> str:
+        """All that its vanishing says: of the named points, and of the joint that alone is in it."""
         return "; ".join(part for part in (self.incidence, self.joint.words if self.joint else "") if part)
 
     @property
@@ -119,7 +124,7 @@ class Factor:
         return self.polynomial * self.name.scale if unit or len(self.polynomial) == 1 else None
 
     def __str__(self) -> str:
-        return f"{self.text()}  ({self.words})" if self.words else self.text()
+        return f"{self.text()}  ({self.explained})" if self.explained else self.text()
 
 
 def _in_brackets(shown: str, polynomial: Polynomial, left: str = "(", right: str = ")") -> str:

@@ -87,12 +87,12 @@ def _full(factor: Factor, found: Citations, written: NamedLengths, longest: int)
 
 
 def _words(factor: Factor, written: NamedLengths) -> str:
-    return f", {escaped(words)}" if (words := written.factor(factor).words) else ""
+    return f", {escaped(words)}" if (words := written.factor(factor).explained) else ""
 
 
 def _cited(factors: list[Factor], found: Citations, written: NamedLengths) -> str:
     """Factors that vanish together, by their words, by short polynomials and by names."""
-    said = [escaped(f.incidence or f.words) for f in factors if f.words]
+    said = [escaped(f.words) for f in factors if f.words]
     equal = [polynomial_latex(written.factor(f).polynomial) for f in factors if is_short(f)]
     equal += [f"f_{{{number}}}" for number in found.numbers_of(factors)]
     return r" \emph{and} ".join([*said, *([f"${' = '.join([*equal, '0'])}$"] if equal else [])])

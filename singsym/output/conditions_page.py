@@ -109,12 +109,12 @@ def _full(factor: Factor, found: Citations, written: NamedLengths, expand: bool)
 
 
 def _words(factor: Factor, written: NamedLengths) -> str:
-    return f"  ({words})" if (words := written.factor(factor).words) else ""
+    return f"  ({words})" if (words := written.factor(factor).explained) else ""
 
 
 def _cited(factors: list[Factor], found: Citations, written: NamedLengths) -> str:
     """Factors that vanish together, by their words, by short polynomials and by names."""
-    said = [f.incidence or f.words for f in factors if f.words]
+    said = [f.words for f in factors if f.words]
     equal = [f"{written.factor(f).polynomial}" for f in factors if is_short(f)]
     equal += [f"f{number}" for number in found.numbers_of(factors)]
     return " and ".join([*said, *([" = ".join([*equal, "0"])] if equal else [])])

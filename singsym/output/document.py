@@ -39,6 +39,7 @@ _SPECIAL = str.maketrans(
         "^": r"\textasciicircum{}",
         "<": r"\textless{}",
         ">": r"\textgreater{}",
+        "≈": r"$\approx$",
     }
 )
 
@@ -49,7 +50,8 @@ def escaped(text: str) -> str:
     >>> print(escaped("50 % of A_1 & B"))
     50 \\% of A\\_1 \\& B
     """
-    kept = "".join(c if c.isprintable() and ord(c) < 0x180 else "?" for c in " ".join(text.split()))
+    known = (c if c.isprintable() and (ord(c) < 0x180 or c == "≈") else "?" for c in " ".join(text.split()))
+    kept = "".join(known)
     return kept.translate(_SPECIAL)
 
 

@@ -120,7 +120,12 @@ def condition_data(condition: Condition, lengths: NamedLengths | None = None) ->
                     "words": f.words,
                     "joint": None
                     if f.joint is None
-                    else {"name": f.joint.joint, "values": list(f.joint.values), "unit": f.joint.unit},
+                    else {
+                        "name": f.joint.joint,
+                        "values": list(f.joint.values),
+                        "unit": f.joint.unit,
+                        "rounded": f.joint.rounded,
+                    },
                     "latex": f.latex(),
                     "in_lengths": str(named) if lengths and (named := lengths.of(f.polynomial)) else None,
                 }
