@@ -158,7 +158,8 @@ class Border:
             return locus
         polynomial = self.polynomial(locus.factor)
         factor = outside.factor(polynomial)
-        return replace(locus, factor=polynomial, words=factor.words, latex=factor.latex())
+        words = factor.words or locus.words
+        return replace(locus, factor=polynomial, words=words, latex=factor.latex())
 
     def _class(self, result: ClassResult) -> ClassResult:
         pieces = tuple(map(self.part, result.pieces))

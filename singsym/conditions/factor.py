@@ -136,6 +136,8 @@ def _text(polynomial: Polynomial, longest: int | None) -> str:
     """A polynomial as text, constants by what they are."""
     shown = str(polynomial) if longest is None else polynomial.short_text(longest)
     for constant in polynomial.ring.constants:
-        root = constant.text if constant.text.endswith(")") else f"({constant.text or constant.name})"
-        shown = re.sub(rf"\b{re.escape(constant.name)}\b", root.replace("**", "^"), shown)
+        if constant.text:
+            single = re.fullmatch(r"\w+(\([^()]*\))?", constant.text)
+            root = constant.text if single else f"({constant.text})"
+            shown = re.sub(rf"\b{re.escape(constant.name)}\b", root.replace("**", "^"), shown)
     return shown

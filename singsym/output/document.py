@@ -49,6 +49,8 @@ def escaped(text: str) -> str:
 
     >>> print(escaped("50 % of A_1 & B"))
     50 \\% of A\\_1 \\& B
+    >>> print(escaped("J ≈ 2 €"))
+    J $\\approx$ 2 ?
     """
     known = (c if c.isprintable() and (ord(c) < 0x180 or c == "≈") else "?" for c in " ".join(text.split()))
     kept = "".join(known)

@@ -8,6 +8,7 @@ import itertools
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -241,3 +242,13 @@ def test_a_factor_that_is_not_constant() -> None:
     factor = Factor(3 * y + 6, name=PointNames(Certifier(space)).recognise(3 * y + 6))
     assert factor.text() == "det[S_A S_B S_C] = 1/3*x*(3*y + 6)"
     check(factor, [0.3, -1.7], bare(space))
+
+
+def test_roots_are_written_as_what_they_are() -> None:
+    """1 + sqrt(5) in a product keeps its parentheses, sqrt(3) needs none; gx is another name than g."""
+    roots = (
+        AlgebraicConstant("g", (-4, -2, 1), Fraction(3), Fraction(4), text="1 + sqrt(5)"),
+        AlgebraicConstant("sqrt3", (-3, 0, 1), Fraction(1), Fraction(2), text="sqrt(3)"),
+    )
+    x, gx, g, root = Ring(("x", "gx", "g", "sqrt3"), constants=roots).gens
+    assert Factor(x * g + gx * root).text() == "x*(1 + sqrt(5)) + gx*sqrt(3)"
