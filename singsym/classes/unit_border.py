@@ -22,9 +22,7 @@ from singsym.classes.result import (
     Piece,
     SpacePiece,
 )
-from singsym.conditions.conditions import conditions
-from singsym.conditions.factor import Factor
-from singsym.conditions.named_quantities import PointNames
+from singsym.conditions.conditions import Conditions, conditions
 from singsym.kinematics.placement import ConfigurationSpace
 from singsym.kinematics.velocity import VelocityEquation, velocity_equation
 from singsym.mechanism.model import Mechanism
@@ -147,20 +145,21 @@ class Border:
             equation=self.outside,
             reduction=outside.reduction,
             configuration_space=tuple(map(self._space_piece, found.configuration_space)),
-            loci=tuple(self._locus(locus, outside.names) for locus in found.loci),
+            loci=tuple(self._locus(locus, outside) for locus in found.loci),
             classes=tuple(map(self._class, found.classes)),
         )
 
     def _space_piece(self, piece: SpacePiece) -> SpacePiece:
         return replace(piece, basis=self.equations(piece.basis))
 
-    def _locus(self, locus: Locus, names: PointNames) -> Locus:
+    def _locus(self, locus: Locus, outside: Conditions) -> Locus:
         """The locus with its factor, and what that is called, in the user's unit."""
         if self.unit == 1:
             return locus
         polynomial = self.polynomial(locus.factor)
-        factor = Factor(polynomial, name=names.recognise(polynomial))
-        return replace(locus, factor=polynomial, words=factor.words, latex=factor.latex())
+        factor = outside.factor(polynomial)
+        words = factor.words or locus.words
+        return replace(locus, factor=polynomial, words=words, latex=factor.latex())
 
     def _class(self, result: ClassResult) -> ClassResult:
         pieces = tuple(map(self.part, result.pieces))

@@ -6,6 +6,7 @@ input, 130 interrupted, 143 terminated.
 
 from __future__ import annotations
 
+import io
 import os
 import signal
 import sys
@@ -33,6 +34,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if chosen.run is None:
         parser().print_help()
         return USAGE
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        # a terminal that lacks ± or ≈ shows a question mark
+        sys.stdout.reconfigure(errors="replace")
     ended = _Ended()
     try:
         with ended.in_order():

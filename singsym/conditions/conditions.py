@@ -6,18 +6,20 @@ Source: Zlatanov, Fenton, Benhabib (1998), the propositions of section 2.3, and 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import prod
 from typing import TYPE_CHECKING
 
 from singsym.conditions.factor import Factor
+from singsym.conditions.incidences.incidences import Incidences
+from singsym.conditions.incidences.quantities import Quantity
 from singsym.conditions.named_quantities import PointNames
 from singsym.kinematics.nonzero import Certifier
 from singsym.kinematics.reduction import Reduction, reduce
 from singsym.minors.blocks import block_triangular
 from singsym.minors.determinant import TooManyTerms
-from singsym.minors.factored import FactoredDeterminant, Unit, determinant_factors
+from singsym.minors.factored import FactoredDeterminant, Unit, determinant_factors, factored
 from singsym.minors.rank import RankBlocks, alternatives, is_small, minor_factors, rank_blocks
 from singsym.polynomials import Polynomial, PolynomialMatrix
 
@@ -68,6 +70,7 @@ class Condition:
     everywhere: it holds in every configuration.
     units: the factors that were taken away, each with the reason.
     blocks: the blocks whose ranks add, with the constant, for (iii), (vi) and where a determinant is no way.
+    bracket: of a determinant with too many terms, what it is of named lines: it holds where this is zero.
     """
 
     label: str
@@ -79,6 +82,7 @@ class Condition:
     units: tuple[Unit, ...] = ()
     comparison: Comparison | None = None
     blocks: RankBlocks | None = None
+    bracket: Quantity | None = None
 
     @property
     def factors(self) -> tuple[Factor, ...]:
@@ -104,6 +108,8 @@ class Condition:
             lines.append("  in every configuration")
         elif self.alternatives is not None and not self.alternatives:
             lines.append("  in no configuration")
+        elif self.bracket is not None:
+            lines.append(f"  {self.bracket.text} = 0  ({self.bracket.words})")
         elif self.blocks is not None and self.alternatives is None:
             sizes = ", ".join("x".join(map(str, block.shape)) for block in self.blocks.blocks)
             lines.append(f"  by the rank {self.blocks.constant} + that of {sizes}, not written out")
@@ -122,6 +128,8 @@ class Condition:
             lines.append(r"& \text{in every configuration}")
         elif self.alternatives is not None and not self.alternatives:
             lines.append(r"& \text{in no configuration}")
+        elif self.bracket is not None:
+            lines.append(rf"& \iff\quad {self.bracket.latex} = 0")
         for place, alternative in enumerate(self.alternatives or ()):
             lead = r"\iff" if place == 0 else r"\text{or}"
             for factor in alternative:
@@ -140,11 +148,13 @@ class Conditions:
 
     equation: the velocity equation as it is; reduction: the same after section 4.2.
     most_terms: determinants with more terms on the way are left as determinants.
+    naming: whether factors get their names.
     """
 
     equation: VelocityEquation
     reduction: Reduction
     most_terms: int = MOST_TERMS
+    naming: bool = True
 
     def __getitem__(self, label: str) -> Condition:
         """A condition by its label; raises `KeyError` naming the labels."""
@@ -169,7 +179,12 @@ class Conditions:
     @cached_property
     def names(self) -> PointNames:
         """The names for determinants of points."""
-        return PointNames(self.certifier)
+        return PointNames(self.certifier, self.incidences)
+
+    @cached_property
+    def incidences(self) -> Incidences:
+        """What the mechanism's architecture says of its determinants."""
+        return Incidences(self.equation, self.certifier)
 
     def matrix(self, name: str) -> PolynomialMatrix:
         """L, L_I, L_O or L_p of the reduced velocity equation."""
@@ -226,24 +241,31 @@ class Conditions:
             return self._rank_condition(label, name, N, f"rank {name} < {N}", latex)
         found = self._determinant(name)
         if found is None:
-            return Condition(label, _TYPES[label], plain, latex, blocks=self.rank_blocks(name))
+            blocks, own = self.rank_blocks(name), self.incidences.bracket_of(name)
+            return Condition(label, _TYPES[label], plain, latex, blocks=blocks, bracket=own)
+        factors = tuple(self.factor(p, k) for p, k in found.factors)
+        if name == "L_O" and len(factors) == 1 and not factors[0].words and self.naming:
+            factors = (replace(factors[0], said=self.incidences.output_at_rest),)
         return Condition(
             label,
             _TYPES[label],
             plain,
             latex,
-            None if found.vanishes else tuple((self._factor(p, k),) for p, k in found.factors),
+            None if found.vanishes else tuple((factor,) for factor in factors),
             found.vanishes,
             found.units,
         )
 
-    def _factor(self, polynomial: Polynomial, multiplicity: int = 1) -> Factor:
-        return Factor(polynomial, multiplicity, self.names.recognise(polynomial))
+    def factor(self, polynomial: Polynomial, multiplicity: int = 1) -> Factor:
+        """A polynomial as a factor of the mechanism's, with its name."""
+        if not self.naming:
+            return Factor(polynomial, multiplicity)
+        return Factor.named(polynomial, multiplicity, self.names)
 
     def _determinant(self, name: str) -> FactoredDeterminant | None:
-        """The determinant, in the smaller of the forms that the full and the reduced matrix give.
+        """The determinant, in the smallest of the forms that the full and reduced matrix and the legs give.
 
-        None where both have too many terms to be written out.
+        None where all have too many terms to be written out.
         """
         choices: list[FactoredDeterminant] = []
         for matrix in (self.matrix(name), getattr(self.equation, name)):
@@ -253,6 +275,8 @@ class Conditions:
                 choices.append(determinant_factors(matrix, self.certifier, self.most_terms))
             except TooManyTerms:
                 continue
+        if (parts := self.incidences.parts_of(name)) is not None:
+            choices.append(factored(parts, self.certifier))
         return min(choices, key=lambda choice: (not choice.vanishes, choice.size), default=None)
 
     def _rank_condition(self, label: str, name: str, required: int, plain: str, latex: str) -> Condition:
@@ -276,7 +300,7 @@ class Conditions:
             _TYPES[label],
             plain,
             latex,
-            tuple(tuple(self._factor(p) for p in a) for a in _minimal(found)) if decided else None,
+            tuple(tuple(self.factor(p) for p in a) for a in _minimal(found)) if decided else None,
             everywhere,
             blocks=apart,
         )
@@ -294,11 +318,15 @@ def _largest_block(matrix: PolynomialMatrix) -> int:
 
 
 def conditions(
-    equation: VelocityEquation, reduction: Reduction | None = None, most_terms: int = MOST_TERMS
+    equation: VelocityEquation,
+    reduction: Reduction | None = None,
+    most_terms: int = MOST_TERMS,
+    naming: bool = True,
 ) -> Conditions:
     """The conditions of a velocity equation; each is worked out when it is asked for.
 
-    reduction: that of section 4.2, where it is at hand; most_terms: of determinants, on the way.
+    reduction: that of section 4.2, where it is at hand; most_terms: of determinants, on the way; naming:
+    whether factors get their names.
 
     >>> from singsym.kinematics.velocity import velocity_equation
     >>> from singsym.mechanism import load
@@ -306,4 +334,4 @@ def conditions(
     (vii) L_I is singular: RO or RPM, II or IIM
       det[S_B S_C S_D] = -By*Cx + Bx*Cy + 4*By - 4*Cy  (B, C, D collinear)
     """
-    return Conditions(equation, reduction or reduce(equation), most_terms)
+    return Conditions(equation, reduction or reduce(equation), most_terms, naming)

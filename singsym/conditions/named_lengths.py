@@ -8,14 +8,14 @@ printed is the same polynomial.  Where none does, as it factors further for thes
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 import sympy
-from flint import fmpq
 
 from singsym.conditions.conditions import conditions
 from singsym.conditions.factor import Factor
+from singsym.conditions.named_quantities import GeometricName, PointNames
 from singsym.kinematics.velocity import VelocityEquation, velocity_equation
 from singsym.mechanism import Mechanism, MechanismError
 from singsym.polynomials import Polynomial, Ring
@@ -28,10 +28,14 @@ _WRITTEN_OUT = ("4", "5", "iii", "vi")
 
 @dataclass(frozen=True)
 class NamedLengths:
-    """values: of the lengths that have names; written: primitive polynomials with what they are in names."""
+    """values: of the lengths that have names; written: primitive polynomials with what they are in names.
+
+    names: of quantities in names of lengths.
+    """
 
     values: Mapping[str, Fraction] = field(default_factory=dict)
     written: Mapping[Polynomial, Polynomial] = field(default_factory=dict)
+    names: PointNames | None = field(default=None, repr=False, compare=False)
 
     def of(self, polynomial: Polynomial) -> Polynomial | None:
         """A multiple of the polynomial in names, by a number; None where it has no such form."""
@@ -43,21 +47,32 @@ class NamedLengths:
         return polynomial if named is None or self.values.keys().isdisjoint(named.variables) else named
 
     def factor(self, factor: Factor) -> Factor:
-        """The factor in names; the quantity stays with it where the factor is that, up to the sign."""
+        """The factor in names, and what it is called in these."""
         named = self.of(factor.polynomial)
         if named is None or (factor.is_plain and self.values.keys().isdisjoint(named.variables)):
             return factor
-        return factor.written_as(named, self._ratio(named, factor.polynomial))
+        return factor.written_as(named, self._called(factor, named))
+
+    def _called(self, factor: Factor, named: Polynomial) -> GeometricName | None:
+        """The quantity that a factor is called by, as a multiple of what the factor is in names."""
+        if factor.name is None or self.names is None:
+            return None
+        ring = self.names.certifier.space.ring
+        found = self.names.called(ring.convert(named), factor.name.quantity)
+        return None if found is None else replace(found, scale=named.ring.convert(found.scale))
 
     def occurring_in(self, some: Iterable[Polynomial]) -> dict[str, Fraction]:
         """The values of those lengths whose names are in some polynomials, as they are shown."""
-        names = {name for polynomial in some for name in self.shown(polynomial).variables}
-        return {name: value for name, value in self.values.items() if name in names}
+        return self._among(map(self.shown, some))
 
-    def _ratio(self, named: Polynomial, polynomial: Polynomial) -> fmpq:
-        """How many times the polynomial the one in names is."""
-        image = _put_in(named, self.values, polynomial.ring)
-        return image.terms()[0][1] / polynomial.terms()[0][1]
+    def occurring_in_factors(self, some: Iterable[Factor]) -> dict[str, Fraction]:
+        """The same for factors, with what they are called."""
+        shown = [self.factor(factor) for factor in some]
+        return self._among(p for f in shown for p in (f.polynomial, *([f.name.scale] if f.name else [])))
+
+    def _among(self, shown: Iterable[Polynomial]) -> dict[str, Fraction]:
+        names = {name for polynomial in shown for name in polynomial.variables}
+        return {name: value for name, value in self.values.items() if name in names}
 
 
 def named_lengths(
@@ -88,7 +103,7 @@ def named_lengths(
         return NamedLengths()
     own = symbolic.space.ring
     ring = own.with_names([*values, *(name for name in own.names if name not in values)], "lex")
-    in_names = conditions(symbolic, most_terms=FEW_TERMS)
+    in_names = conditions(symbolic, most_terms=FEW_TERMS, naming=False)
     written: dict[Polynomial, Polynomial] = {}
     for label in labels:
         for factor in in_names[label].all_factors:
@@ -99,7 +114,7 @@ def named_lengths(
                 return NamedLengths()
             if not image.is_constant:
                 written.setdefault(image.primitive(), ring.convert(factor.polynomial).primitive())
-    return NamedLengths(values, written)
+    return NamedLengths(values, written, in_names.names)
 
 
 def _put_in(named: Polynomial, values: Mapping[str, Fraction], ring: Ring) -> Polynomial:

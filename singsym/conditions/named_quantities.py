@@ -11,30 +11,24 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import combinations, islice
+from math import prod
 
 import sympy
 from flint import fmpq
 
+from singsym.conditions.incidences.grassmann_cayley import Vector, cross, dot, minus
+from singsym.conditions.incidences.incidences import Incidences
+from singsym.conditions.incidences.joint_values import JointRoots, joint_roots
+from singsym.conditions.incidences.quantities import Quantity, symbol
 from singsym.kinematics.nonzero import Certifier
 from singsym.polynomials import Polynomial
 
 MANY = 5000
 """Not more than this many combinations of names are tried in space."""
 
-Vector = tuple[Polynomial, ...]
 
-
-@dataclass(frozen=True)
-class Quantity:
-    """A determinant or product of named points and axes, and what its vanishing says.
-
-    S_A in a planar determinant is the screw (1, y, -x) of a turn about the point A = (x, y); det[A B C D] in
-    space has a row (1, x, y, z) for each point.
-    """
-
-    latex: str
-    text: str
-    words: str
+_Candidates = tuple[tuple[Polynomial, Polynomial, Quantity], ...]
+"""Of each quantity its primitive form, by which it is found, and its value."""
 
 
 @dataclass(frozen=True)
@@ -49,26 +43,6 @@ class GeometricName:
     radicand: int = 1
 
 
-def _symbol(name: str) -> str:
-    """A name as LaTeX: one letter with an index, or text."""
-    head, index = name[:1], name[1:].lstrip("_")
-    if head.isalpha() and (not index or index.isalnum()) and len(index) <= 2:
-        return rf"{head}_{{{index}}}" if index else head
-    return rf"\mathrm{{{name.replace('_', ' ')}}}"
-
-
-def _subtract(a: Vector, b: Vector) -> Vector:
-    return tuple(p - q for p, q in zip(a, b, strict=True))
-
-
-def _dot(a: Vector, b: Vector) -> Polynomial:
-    return sum((p * q for p, q in zip(a[1:], b[1:], strict=True)), start=a[0] * b[0])
-
-
-def _cross(a: Vector, b: Vector) -> Vector:
-    return tuple(a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2] for i in range(3))
-
-
 def _ratio(a: Polynomial, b: Polynomial) -> fmpq:
     """The rational number that one polynomial is of another with the same primitive form."""
     return a.terms()[0][1] / b.terms()[0][1]
@@ -79,7 +53,8 @@ class PointNames:
     """Recognises polynomials as determinants of a configuration space's named points and axes.
 
     A name is given only where the determinant is the polynomial times a factor proved nonzero, on the circles
-    and spheres of the configuration space; the name carries that factor.
+    and spheres of the configuration space; the name carries that factor.  What the mechanism's architecture
+    suggests is tried first.
 
     >>> from singsym.kinematics.placement import ConfigurationSpace
     >>> from singsym.polynomials import Ring
@@ -92,6 +67,7 @@ class PointNames:
     """
 
     certifier: Certifier
+    incidences: Incidences | None = None
 
     @cached_property
     def _points(self) -> dict[str, Vector]:
@@ -106,38 +82,70 @@ class PointNames:
         own = self.certifier.normal_form(polynomial)
         wanted = own.primitive()
         square = self.certifier.normal_form(wanted * wanted).primitive()
-        for key, value, quantity in self._lengths:
-            if key == square:
-                ratio = _ratio(value, self.certifier.normal_form(own * own))
-                coefficient, root = sympy.sqrt(sympy.Rational(int(ratio.p), int(ratio.q))).as_coeff_Mul()
-                scale = polynomial.ring.constant(Fraction(int(coefficient.p), int(coefficient.q)))
-                return GeometricName(quantity, scale, int(root**2))
-        for key, value, quantity in self._candidates:
-            if key == wanted:
-                return GeometricName(quantity, polynomial.ring.constant(_ratio(value, own)))
-        for _, value, quantity in self._candidates:
-            if wanted.divides(value):
-                scale = value.exact_quotient(own)
-                if self.certifier.reason(scale) is not None:
-                    return GeometricName(quantity, scale)
+        for lengths, values in (self._suggested, self._own):
+            for key, value, quantity in lengths:
+                if key == square and (name := self._as_length(quantity, value, own)) is not None:
+                    return name
+            for key, value, quantity in values:
+                if key == wanted:
+                    return GeometricName(quantity, polynomial.ring.constant(_ratio(value, own)))
+            for _, value, quantity in values:
+                if wanted.divides(value):
+                    scale = value.exact_quotient(own)
+                    if self.certifier.reason(scale) is not None:
+                        return GeometricName(quantity, scale)
         return None
 
-    @cached_property
-    def _lengths(self) -> tuple[tuple[Polynomial, Polynomial, Quantity], ...]:
-        """Squared distances in space: a polynomial whose square is one vanishes exactly where it does."""
-        if len(next(iter(self._points.values()), ())) != 3:
-            return ()
-        return self._normal((_dot(vector, vector), quantity) for vector, quantity in self._on_lines())
+    def called(self, polynomial: Polynomial, quantity: Quantity) -> GeometricName | None:
+        """How many times a polynomial a quantity is; None where it is no multiple, or not known here."""
+        own = self.certifier.normal_form(polynomial)
+        for lengths, values in (self._suggested, self._own):
+            for _, value, known in lengths:
+                if known.text == quantity.text:
+                    return self._as_length(quantity, value, own)
+            for _, value, known in values:
+                if known.text == quantity.text and own.divides(value):
+                    return GeometricName(quantity, value.exact_quotient(own))
+        return None
+
+    def _as_length(self, quantity: Quantity, value: Polynomial, own: Polynomial) -> GeometricName | None:
+        """A length with this square as a multiple of a polynomial; None where it is none."""
+        square = self.certifier.normal_form(own * own)
+        if not square.divides(value):
+            return None
+        ratio = value.exact_quotient(square)
+        if any(multiplicity % 2 for _, multiplicity in ratio.factors()):
+            return None
+        root = prod((f ** (k // 2) for f, k in ratio.factors()), start=own.ring.one)
+        number = ratio.exact_quotient(root * root).constant
+        coefficient, radical = sympy.sqrt(sympy.Rational(int(number.p), int(number.q))).as_coeff_Mul()
+        scale = root * Fraction(int(coefficient.p), int(coefficient.q))
+        return GeometricName(quantity, scale, int(radical**2))
+
+    def joint_roots(self, polynomial: Polynomial) -> JointRoots | None:
+        """The joint that alone is in a factor, with the values where it vanishes; else None."""
+        values = self.incidences.equation.values if self.incidences else {}
+        return joint_roots(polynomial, values)
 
     @cached_property
-    def _candidates(self) -> tuple[tuple[Polynomial, Polynomial, Quantity], ...]:
+    def _suggested(self) -> tuple[_Candidates, _Candidates]:
+        """What the architecture suggests: squares of lengths, and values."""
+        if self.incidences is None:
+            return (), ()
+        return self._normal(self.incidences.squares()), self._normal(self.incidences.values())
+
+    @cached_property
+    def _own(self) -> tuple[_Candidates, _Candidates]:
+        """Squared distances in space, whose root a polynomial may be, and determinants and products."""
         dimension = len(next(iter(self._points.values()), ()))
-        source = self._planar() if dimension == 2 else self._spatial() if dimension == 3 else iter(())
-        return self._normal(source)
+        if dimension == 2:
+            return (), self._normal(self._planar())
+        if dimension == 3:
+            squares = ((dot(vector, vector), quantity) for vector, quantity in self._on_lines())
+            return self._normal(squares), self._normal(self._spatial())
+        return (), ()
 
-    def _normal(
-        self, source: Iterable[tuple[Polynomial, Quantity]]
-    ) -> tuple[tuple[Polynomial, Polynomial, Quantity], ...]:
+    def _normal(self, source: Iterable[tuple[Polynomial, Quantity]]) -> _Candidates:
         """Primitive and normal forms of those that are not constant."""
         found = ((self.certifier.normal_form(value), quantity) for value, quantity in source)
         return tuple((v.primitive(), v, quantity) for v, quantity in found if not v.is_constant)
@@ -145,7 +153,7 @@ class PointNames:
     def _planar(self) -> Iterator[tuple[Polynomial, Quantity]]:
         for names in combinations(sorted(self._points), 3):
             p, q, r = (self._points[name] for name in names)
-            a, b = _subtract(q, p), _subtract(r, p)
+            a, b = minus(q, p), minus(r, p)
             yield a[0] * b[1] - a[1] * b[0], _determinant(names, "collinear")
 
     def _on_lines(self) -> Iterator[tuple[Vector, Quantity]]:
@@ -154,20 +162,20 @@ class PointNames:
         axes = {n: tuple(v) for n, v in sorted(self.certifier.space.directions.items())}
         for triple in islice(combinations(names, 3), MANY // 10):
             first, *others = (self._points[name] for name in triple)
-            a, b = (_subtract(other, first) for other in others)
+            a, b = (minus(other, first) for other in others)
             if sum(len(e) for e in (*a, *b)) < 24:
                 p, q, r = triple
-                latex = r" \times ".join(rf"\overrightarrow{{{_symbol(p)}{_symbol(x)}}}" for x in (q, r))
+                latex = r" \times ".join(rf"\overrightarrow{{{symbol(p)}{symbol(x)}}}" for x in (q, r))
                 words = f"{', '.join(sorted(triple))} collinear"
-                yield _cross(a, b), Quantity(rf"\pm|{latex}|", f"±|{p}{q} x {p}{r}|", words)
+                yield cross(a, b), Quantity(rf"\pm|{latex}|", f"±|{p}{q} x {p}{r}|", words)
         for base, other in islice(combinations(names, 2), MANY // 10):
-            arm = _subtract(self._points[other], self._points[base])
+            arm = minus(self._points[other], self._points[base])
             for u, axis in axes.items():
                 if sum(len(e) for e in (*arm, *axis)) < 24:
-                    latex = rf"\overrightarrow{{{_symbol(base)}{_symbol(other)}}} \times {_symbol(u)}"
+                    latex = rf"\overrightarrow{{{symbol(base)}{symbol(other)}}} \times {symbol(u)}"
                     words = f"{other} on the axis {u} through {base}"
                     yield (
-                        _cross(arm, axis),
+                        cross(arm, axis),
                         Quantity(rf"\pm|{latex}|", f"±|{base}{other} x {u}|", words),
                     )
 
@@ -175,32 +183,32 @@ class PointNames:
         count = 0
         axes = {n: tuple(v) for n, v in sorted(self.certifier.space.directions.items())}
         for u, v in combinations(axes, 2):
-            latex = rf"{_symbol(u)} \cdot {_symbol(v)}"
-            yield _dot(axes[u], axes[v]), Quantity(latex, f"{u}.{v}", f"axes {u} and {v} perpendicular")
+            latex = rf"{symbol(u)} \cdot {symbol(v)}"
+            yield dot(axes[u], axes[v]), Quantity(latex, f"{u}.{v}", f"axes {u} and {v} perpendicular")
         for p, q in combinations(sorted(self._points), 2):
-            difference = _subtract(self._points[q], self._points[p])
+            difference = minus(self._points[q], self._points[p])
             for u in axes:
                 if (count := count + 1) > MANY:
                     return
-                latex = rf"\overrightarrow{{{_symbol(p)}{_symbol(q)}}} \cdot {_symbol(u)}"
+                latex = rf"\overrightarrow{{{symbol(p)}{symbol(q)}}} \cdot {symbol(u)}"
                 words = f"{p}{q} perpendicular to axis {u}"
-                yield _dot(difference, axes[u]), Quantity(latex, f"{p}{q}.{u}", words)
+                yield dot(difference, axes[u]), Quantity(latex, f"{p}{q}.{u}", words)
         for triple in islice(combinations(axes, 3), MANY // 10):
             one, two, three = (axes[name] for name in triple)
             if sum(len(e) for e in (*one, *two, *three)) < 24:
-                latex = rf"\det[{', '.join(map(_symbol, triple))}]"
+                latex = rf"\det[{', '.join(map(symbol, triple))}]"
                 words = f"axes {', '.join(triple[:2])} and {triple[2]} parallel to a plane"
-                yield _dot(one, _cross(two, three)), Quantity(latex, f"det[{' '.join(triple)}]", words)
+                yield dot(one, cross(two, three)), Quantity(latex, f"det[{' '.join(triple)}]", words)
         for names in combinations(sorted(self._points), 4):
             if (count := count + 1) > MANY:
                 return
             first, *others = (self._points[name] for name in names)
-            a, b, c = (_subtract(other, first) for other in others)
+            a, b, c = (minus(other, first) for other in others)
             if sum(len(e) for e in (*a, *b, *c)) < 60:
-                yield _dot(a, _cross(b, c)), _determinant(names, "coplanar")
+                yield dot(a, cross(b, c)), _determinant(names, "coplanar")
 
 
 def _determinant(names: tuple[str, ...], relation: str) -> Quantity:
-    inside = r"\, ".join(f"S_{{{_symbol(n)}}}" if relation == "collinear" else _symbol(n) for n in names)
+    inside = r"\, ".join(f"S_{{{symbol(n)}}}" if relation == "collinear" else symbol(n) for n in names)
     text = " ".join(f"S_{n}" if relation == "collinear" else n for n in names)
     return Quantity(rf"\det[{inside}]", f"det[{text}]", f"{', '.join(names)} {relation}")

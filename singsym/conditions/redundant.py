@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 
 from singsym.conditions.conditions import MOST_TERMS, Condition
 from singsym.conditions.factor import Factor
+from singsym.conditions.incidences.incidences import Incidences
 from singsym.conditions.named_quantities import PointNames
 from singsym.kinematics.nonzero import Certifier
 from singsym.minors.determinant import TooManyTerms
@@ -56,7 +57,7 @@ def redundant_chain(equation: VelocityEquation) -> RedundantChain:
     if "passive" in roles or J.shape != (outputs, inputs) or inputs <= outputs:
         raise ValueError("the equation is not that of a serial chain with more inputs than output components")
     certifier = Certifier(equation.space)
-    names = PointNames(certifier)
+    names = PointNames(certifier, Incidences(equation, certifier))
     products = _minors(equation, certifier)
     found = None if products is None else alternatives(products, certifier)
     if products == ():
@@ -66,7 +67,7 @@ def redundant_chain(equation: VelocityEquation) -> RedundantChain:
         "IO",
         f"rank L_O < {outputs}",
         rf"\operatorname{{rank}} L_O(q) < {outputs}",
-        None if found is None else tuple(tuple(Factor(p, 1, names.recognise(p)) for p in a) for a in found),
+        None if found is None else tuple(tuple(Factor.named(p, 1, names) for p in a) for a in found),
         everywhere=products == (),
     )
     return RedundantChain(equation, inputs, outputs, condition)

@@ -128,7 +128,8 @@ class Certifier:
 
     def _proof(self, forms: tuple[Polynomial, ...]) -> str | None:
         """Why a polynomial with these forms has no zero, without factors."""
-        for form in forms:
+        short = (self._forms.modulo_multiples(form) for form in forms if len(form) <= LONGEST_SUM)
+        for form in (*forms, *short):
             if form.is_constant and form:
                 return f"equal to {form} on the configuration space"
         for form in forms:

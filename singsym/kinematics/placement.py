@@ -68,6 +68,42 @@ class JointValue:
 
 
 @dataclass(frozen=True)
+class PlacedJoint:
+    """A joint between two links with its screws in the fixed frame, and the names of where it is.
+
+    points, axes: names of its points and directions, as far as `space.points` and `space.directions` have
+        them, each once.
+    screws: one for each of `columns`, of the second link relative to the first.
+    idle: where the link between two spherical joints would spin about its own line, the direction in which
+        this joint does not.
+    """
+
+    name: str
+    first: str
+    second: str
+    points: tuple[str, ...]
+    axes: tuple[str, ...]
+    columns: tuple[str, ...]
+    screws: tuple[Coordinates, ...]
+    idle: Coordinates | None = None
+
+
+@dataclass(frozen=True)
+class Architecture:
+    """How a mechanism hangs together: its joints between links.
+
+    moved, point: the link and point whose velocity is the output, or "".
+    coupled: gears, belts or racks tie rates of joints to each other.
+    """
+
+    ground: str
+    joints: tuple[PlacedJoint, ...]
+    moved: str
+    point: str = ""
+    coupled: bool = False
+
+
+@dataclass(frozen=True)
 class Placement:
     """Where everything is, as polynomials in the configuration variables.
 

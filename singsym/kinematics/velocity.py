@@ -14,7 +14,14 @@ from typing import TYPE_CHECKING, Literal
 from singsym.kinematics.couplings import coupling_rows
 from singsym.kinematics.formulations import place
 from singsym.kinematics.loops import loops, path, point_path
-from singsym.kinematics.placement import ConfigurationSpace, Coordinates, JointValue, Placement
+from singsym.kinematics.placement import (
+    Architecture,
+    ConfigurationSpace,
+    Coordinates,
+    JointValue,
+    PlacedJoint,
+    Placement,
+)
 from singsym.mechanism.model import JointRate, Mechanism, Output, PointVelocity, Space
 from singsym.polynomials import Polynomial, PolynomialMatrix
 
@@ -45,6 +52,7 @@ class VelocityEquation:
     matrix: L, one row for each entry of `rows`, one column for each of `columns`.
     N: the number of 1-DOF joints; n: the mobility.  L has N rows, more where over-constrained.
     values: what the formulation knows of the joints' values, by column label.
+    architecture: which joints are between which links; None where only L is given.
     """
 
     space: ConfigurationSpace
@@ -54,6 +62,7 @@ class VelocityEquation:
     N: int
     n: int
     values: Mapping[str, JointValue] = field(default_factory=dict, compare=False)
+    architecture: Architecture | None = field(default=None, compare=False)
 
     def _without(self, *roles: Role) -> PolynomialMatrix:
         return self.matrix.select(columns=[j for j, c in enumerate(self.columns) if c.role not in roles])
@@ -156,8 +165,37 @@ def velocity_equation(mechanism: Mechanism, formulation: str = "auto") -> Veloci
     columns += [Column(c, "input" if c in inputs else "passive") for c in joint_columns]
     matrix = PolynomialMatrix.of(ring, [[ring.reduced(e) for e in row] for row in rows], width)
     return VelocityEquation(
-        placed.space, matrix, tuple(columns), tuple(names), mechanism.N, mechanism.n, placed.values
+        placed.space,
+        matrix,
+        tuple(columns),
+        tuple(names),
+        mechanism.N,
+        mechanism.n,
+        placed.values,
+        _architecture(mechanism, placed),
     )
+
+
+def _architecture(mechanism: Mechanism, placed: Placement) -> Architecture:
+    """The joints between the links, and what is moved where that is one link."""
+    space, idle = placed.space, dict(placed.idle_spins)
+    joints = tuple(
+        PlacedJoint(
+            joint.name,
+            joint.first,
+            joint.second,
+            tuple(dict.fromkeys(name for name in joint.at if name in space.points)),
+            tuple(dict.fromkeys(name for name in joint.axes or () if name in space.directions)),
+            joint.columns,
+            tuple(placed.screws[column] for column in joint.columns),
+            idle.get(joint.name),
+        )
+        for joint in mechanism.joints
+    )
+    moved, point = "", ""
+    if len(mechanism.outputs) == 1 and not isinstance(output := mechanism.outputs[0], JointRate):
+        moved, point = output.link, output.point if output.point in space.points else ""
+    return Architecture(mechanism.ground, joints, moved, point, bool(mechanism.couplings))
 
 
 def _components(output: Output) -> tuple[str, ...]:

@@ -35,7 +35,7 @@ def listed_latex(
     found = cited(listed)
     longest = sys.maxsize if expand else LONGEST
     parts = [_entry(entry, found, written, longest) for entry in found.entries]
-    if values := written.occurring_in(f.polynomial for c in listed for f in c.all_factors):
+    if values := written.occurring_in_factors(f for c in listed for f in c.all_factors):
         parts.append(values_latex(values))
     return "\n\n".join(parts)
 
@@ -54,16 +54,22 @@ def _entry(entry: Entry, found: Citations, written: NamedLengths, longest: int) 
         return f"{head}, as ({entry.same_as})."
     if condition.everywhere:
         return f"{head}, in every configuration."
+    if condition.bracket is not None:
+        return rf"{head}: ${condition.bracket.latex} = 0$, {escaped(condition.bracket.words)}."
     if condition.alternatives is None:
         return f"{head}."
     if not condition.alternatives:
         return f"{head}, in no configuration.{_units(condition)}"
     items = []
     for place, alternative in enumerate(entry.alternatives):
-        said = [f"${_full(f, found, written, longest)} = 0${_words(f)}" for f, full in alternative if full]
+        said = [
+            f"${_full(f, found, written, longest)} = 0${_words(f, written)}"
+            for f, full in alternative
+            if full
+        ]
         said = said or [_cited([f for f, _ in alternative], found, written)]
         items.append(rf"\item[{'or' if place else 'if'}] {said[0]}")
-    items += [rf"\item[where] ${_full(f, found, written, longest)}${_words(f)}" for f in entry.below]
+    items += [rf"\item[where] ${_full(f, found, written, longest)}${_words(f, written)}" for f in entry.below]
     listed = "\n".join(items)
     return f"{head}\n\\begin{{itemize}}\n{listed}\n\\end{{itemize}}{_units(condition)}"
 
@@ -80,8 +86,8 @@ def _full(factor: Factor, found: Citations, written: NamedLengths, longest: int)
     return f"{name}{written.factor(factor).latex(longest)}"
 
 
-def _words(factor: Factor) -> str:
-    return f", {escaped(factor.words)}" if factor.words else ""
+def _words(factor: Factor, written: NamedLengths) -> str:
+    return f", {escaped(words)}" if (words := written.factor(factor).explained) else ""
 
 
 def _cited(factors: list[Factor], found: Citations, written: NamedLengths) -> str:

@@ -64,7 +64,7 @@ def conditions_text(
     written = lengths or NamedLengths()
     found = cited(listed)
     lines = [line for entry in found.entries for line in _entry(entry, found, written, expand)]
-    if values := written.occurring_in(f.polynomial for c in listed for f in c.all_factors):
+    if values := written.occurring_in_factors(f for c in listed for f in c.all_factors):
         lines.append(f"with {values_text(values)}")
     if not expand and any(len(f.polynomial) > MOST for c in listed for f in c.all_factors):
         lines.append("Polynomials are cut: --expand prints all of their terms")
@@ -81,15 +81,19 @@ def _entry(entry: Entry, found: Citations, written: NamedLengths, expand: bool) 
         head += "; in every configuration"
     elif condition.alternatives is not None and not condition.alternatives:
         head += "; in no configuration"
+    elif condition.bracket is not None:
+        return [head, f"  if {condition.bracket.text} = 0  ({condition.bracket.words})"]
     elif condition.alternatives is None and condition.comparison is None:
         head += "; left as a rank: no determinant or list of minors is short enough"
     lines = [head]
     for place, alternative in enumerate(entry.alternatives):
-        said = [f"{_full(f, found, written, expand)} = 0{_words(f)}" for f, full in alternative if full]
+        said = [
+            f"{_full(f, found, written, expand)} = 0{_words(f, written)}" for f, full in alternative if full
+        ]
         said = said or [_cited([f for f, _ in alternative], found, written)]
         lines.append(f"  {'or' if place else 'if'} {said[0]}")
     below = [f for f in entry.below if expand or not f.words]
-    lines += [f"  where {_full(f, found, written, expand)}{_words(f)}" for f in below]
+    lines += [f"  where {_full(f, found, written, expand)}{_words(f, written)}" for f in below]
     if expand or len(condition.units) <= FEW:
         return lines + [f"  without the factor {unit}" for unit in condition.units]
     left_out = f"{len(condition.units)} factors that vanish nowhere in the feasible set"
@@ -104,8 +108,8 @@ def _full(factor: Factor, found: Citations, written: NamedLengths, expand: bool)
     return f"{f'f{number} = ' if number else ''}{shown.text(longest)}"
 
 
-def _words(factor: Factor) -> str:
-    return f"  ({factor.words})" if factor.words else ""
+def _words(factor: Factor, written: NamedLengths) -> str:
+    return f"  ({words})" if (words := written.factor(factor).explained) else ""
 
 
 def _cited(factors: list[Factor], found: Citations, written: NamedLengths) -> str:

@@ -39,6 +39,7 @@ _SPECIAL = str.maketrans(
         "^": r"\textasciicircum{}",
         "<": r"\textless{}",
         ">": r"\textgreater{}",
+        "≈": r"$\approx$",
     }
 )
 
@@ -48,8 +49,11 @@ def escaped(text: str) -> str:
 
     >>> print(escaped("50 % of A_1 & B"))
     50 \\% of A\\_1 \\& B
+    >>> print(escaped("J ≈ 2 €"))
+    J $\\approx$ 2 ?
     """
-    kept = "".join(c if c.isprintable() and ord(c) < 0x180 else "?" for c in " ".join(text.split()))
+    known = (c if c.isprintable() and (ord(c) < 0x180 or c == "≈") else "?" for c in " ".join(text.split()))
+    kept = "".join(known)
     return kept.translate(_SPECIAL)
 
 

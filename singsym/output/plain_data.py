@@ -98,14 +98,17 @@ def conditions_data(name: str, conditions: Conditions, lengths: NamedLengths | N
 def condition_data(condition: Condition, lengths: NamedLengths | None = None) -> dict[str, Any]:
     """A condition with its factors, null in names of lengths where they have no such form.
 
-    alternatives: null where it is left as a rank.
+    alternatives: null where it is left as a rank; bracket: what a long determinant is of lines.
     """
-    alternatives = condition.alternatives
+    alternatives, bracket = condition.alternatives, condition.bracket
     return {
         "label": condition.label,
         "statement": condition.statement,
         "types": condition.types,
         "everywhere": condition.everywhere,
+        "bracket": None
+        if bracket is None
+        else {"name": bracket.text, "words": bracket.words, "latex": bracket.latex},
         "alternatives": None
         if alternatives is None
         else [
@@ -115,6 +118,14 @@ def condition_data(condition: Condition, lengths: NamedLengths | None = None) ->
                     "multiplicity": f.multiplicity,
                     "name": f.name.quantity.text if f.name else "",
                     "words": f.words,
+                    "joint": None
+                    if f.joint is None
+                    else {
+                        "name": f.joint.joint,
+                        "values": list(f.joint.values),
+                        "unit": f.joint.unit,
+                        "rounded": f.joint.rounded,
+                    },
                     "latex": f.latex(),
                     "in_lengths": str(named) if lengths and (named := lengths.of(f.polynomial)) else None,
                 }

@@ -67,6 +67,34 @@ class ShortForms:
         last, first = (tuple((e, names[place]) for e, names in self.squares) for place in (-1, 0))
         return division(last), division(first)
 
+    def modulo_multiples(self, polynomial: Polynomial) -> Polynomial:
+        """The remainder modulo sums of rational multiples of the equations: the same value, in other terms.
+
+        >>> R = Ring(("x", "y"))
+        >>> x, y = R.gens
+        >>> forms = ShortForms(R, (x**2 + y - 2, x**2 + x * y - 3))
+        >>> forms.modulo_multiples(x * y - y)
+        1
+        """
+        for monomial, equation in self._echelon:
+            if c := polynomial.value[monomial]:
+                polynomial = polynomial - equation * c
+        return polynomial
+
+    @cached_property
+    def _echelon(self) -> tuple[tuple[tuple[int, ...], Polynomial], ...]:
+        """Sums of multiples of the equations, each with a monomial that is in none of the later."""
+        found: list[tuple[tuple[int, ...], Polynomial]] = []
+        for equation in self.equations:
+            rest = equation
+            for monomial, known in found:
+                if c := rest.value[monomial]:
+                    rest = rest - known * c
+            if not rest.is_constant:
+                monomial, c = rest.terms()[0]
+                found.append((monomial, rest / c))
+        return tuple(found)
+
     def shorten(self, polynomial: Polynomial) -> Polynomial:
         """A polynomial with the same values, with fewer terms where one is found.
 

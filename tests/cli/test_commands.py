@@ -1,6 +1,7 @@
 """What the commands print, and their exit codes: 0 decided, 3 undecided, 2 usage or bad input."""
 
 import json
+import os
 import re
 import subprocess
 import sys
@@ -265,6 +266,13 @@ def run(*arguments, **options):
     return subprocess.run(
         [sys.executable, "-m", "singsym", *arguments], capture_output=True, text=True, check=False, **options
     )
+
+
+def test_characters_that_a_terminal_lacks_are_no_error():
+    """The elbow of the PUMA is at angles that are rounded, with a sign that ASCII has not."""
+    done = run("conditions", "puma560", env={**os.environ, "PYTHONIOENCODING": "ascii"})
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "J3 ? -87.3 or 92.7 deg" in done.stdout
 
 
 def test_a_closed_pipe_is_no_error():

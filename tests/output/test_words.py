@@ -29,8 +29,9 @@ def test_the_hybrid_chain_in_the_papers_words() -> None:
     [
         ("spherical-fourbar", "5", "axes A, B and C parallel to a plane"),
         ("2r", "5", "A, B, C collinear"),
-        ("slider-crank", "5", ""),
-        ("ur5", "5", "O1, O2, O3 collinear"),
+        ("slider-crank", "5", "AB parallel to slide P"),
+        ("ur5", "5", "elbow: arm stretched or folded, O4 on J4 and J5 in the plane of the axes J2 and J3"),
+        ("spherical-3rrr", "4", "planes of the axes B1, C1, B2, C2 and B3, C3 with a line in common"),
     ],
 )
 def test_textbook_statements(name: str, label: str, expected: str) -> None:
