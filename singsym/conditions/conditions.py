@@ -12,6 +12,7 @@ from math import prod
 from typing import TYPE_CHECKING
 
 from singsym.conditions.factor import Factor
+from singsym.conditions.legs import Legs, legs_of
 from singsym.conditions.named_quantities import PointNames
 from singsym.kinematics.nonzero import Certifier
 from singsym.kinematics.reduction import Reduction, reduce
@@ -68,6 +69,7 @@ class Condition:
     everywhere: it holds in every configuration.
     units: the factors that were taken away, each with the reason.
     blocks: the blocks whose ranks add, with the constant, for (iii), (vi) and where a determinant is no way.
+    legs: what (vi), and (4) where it is left as a rank, says of the legs between the loops' branches.
     """
 
     label: str
@@ -79,6 +81,7 @@ class Condition:
     units: tuple[Unit, ...] = ()
     comparison: Comparison | None = None
     blocks: RankBlocks | None = None
+    legs: Legs | None = None
 
     @property
     def factors(self) -> tuple[Factor, ...]:
@@ -94,6 +97,11 @@ class Condition:
     def polynomials(self) -> tuple[tuple[Polynomial, ...], ...]:
         """The alternatives as bare polynomials."""
         return tuple(tuple(f.polynomial for f in a) for a in self.alternatives or ())
+
+    @property
+    def is_nowhere(self) -> bool:
+        """Whether it holds in no configuration, by its factors."""
+        return self.alternatives == () and not self.everywhere
 
     def __repr__(self) -> str:
         return f"Condition({self.label}: {self.statement})"
@@ -226,7 +234,8 @@ class Conditions:
             return self._rank_condition(label, name, N, f"rank {name} < {N}", latex)
         found = self._determinant(name)
         if found is None:
-            return Condition(label, _TYPES[label], plain, latex, blocks=self.rank_blocks(name))
+            apart = self.rank_blocks(name)
+            return Condition(label, _TYPES[label], plain, latex, blocks=apart, legs=self._legs(label))
         return Condition(
             label,
             _TYPES[label],
@@ -236,6 +245,10 @@ class Conditions:
             found.vanishes,
             found.units,
         )
+
+    def _legs(self, label: str) -> Legs | None:
+        """The legs of (4), (vi) and (vii)."""
+        return legs_of(self.equation, label == "vi") if label in ("4", "vi", "vii") else None
 
     def _factor(self, polynomial: Polynomial, multiplicity: int = 1) -> Factor:
         return Factor(polynomial, multiplicity, self.names.recognise(polynomial))
@@ -279,6 +292,7 @@ class Conditions:
             tuple(tuple(self._factor(p) for p in a) for a in _minimal(found)) if decided else None,
             everywhere,
             blocks=apart,
+            legs=self._legs(label),
         )
 
 
