@@ -11,8 +11,8 @@ from functools import cached_property
 from math import prod
 from typing import TYPE_CHECKING
 
+from singsym.conditions.equilibrium import Equilibrium, equilibrium
 from singsym.conditions.factor import Factor
-from singsym.conditions.legs import Legs, legs_of
 from singsym.conditions.named_quantities import PointNames
 from singsym.kinematics.nonzero import Certifier
 from singsym.kinematics.reduction import Reduction, reduce
@@ -69,7 +69,7 @@ class Condition:
     everywhere: it holds in every configuration.
     units: the factors that were taken away, each with the reason.
     blocks: the blocks whose ranks add, with the constant, for (iii), (vi) and where a determinant is no way.
-    legs: what (vi), and (4) where it is left as a rank, says of the legs between the loops' branches.
+    equilibrium: what (vi), and (4) where it is left as a rank, says of screws of the legs.
     """
 
     label: str
@@ -81,7 +81,7 @@ class Condition:
     units: tuple[Unit, ...] = ()
     comparison: Comparison | None = None
     blocks: RankBlocks | None = None
-    legs: Legs | None = None
+    equilibrium: Equilibrium | None = None
 
     @property
     def factors(self) -> tuple[Factor, ...]:
@@ -235,7 +235,9 @@ class Conditions:
         found = self._determinant(name)
         if found is None:
             apart = self.rank_blocks(name)
-            return Condition(label, _TYPES[label], plain, latex, blocks=apart, legs=self._legs(label))
+            return Condition(
+                label, _TYPES[label], plain, latex, blocks=apart, equilibrium=self._equilibrium(label)
+            )
         return Condition(
             label,
             _TYPES[label],
@@ -246,9 +248,9 @@ class Conditions:
             found.units,
         )
 
-    def _legs(self, label: str) -> Legs | None:
-        """The legs of (4), (vi) and (vii)."""
-        return legs_of(self.equation, label == "vi") if label in ("4", "vi", "vii") else None
+    def _equilibrium(self, label: str) -> Equilibrium | None:
+        """The screws of (4), (vi) and (vii)."""
+        return equilibrium(self.equation, label == "vi") if label in ("4", "vi", "vii") else None
 
     def _factor(self, polynomial: Polynomial, multiplicity: int = 1) -> Factor:
         return Factor(polynomial, multiplicity, self.names.recognise(polynomial))
@@ -292,7 +294,7 @@ class Conditions:
             tuple(tuple(self._factor(p) for p in a) for a in _minimal(found)) if decided else None,
             everywhere,
             blocks=apart,
-            legs=self._legs(label),
+            equilibrium=self._equilibrium(label),
         )
 
 

@@ -1,8 +1,8 @@
 """What is printed once of a mechanism's conditions and cited after: equal conditions, and polynomials.
 
-Source: Zlatanov, Fenton, Benhabib (1998), the proposition of section 2.3.  (vii) and (viii) repeat (4) and (5), and say
-that a configuration of (5) is RI or RPM, and IO or IIM: so (i) is (5) where (iii) does not hold, and in the same way (ii)
-is (4) off (iii), (iv) is (4) off (vi), and (v) is (5) off (vi).  Minors share factors.
+Source: Zlatanov, Fenton, Benhabib (1998), the proposition of section 2.3.  (vii) and (viii) repeat (4) and (5), and
+say that a configuration of (5) is RI or RPM, and IO or IIM: so (i) is (5) where (iii) does not hold, and in the
+same way (ii) is (4) off (iii), (iv) is (4) off (vi), and (v) is (5) off (vi).  Minors share factors.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ SHORT = 24
 """A polynomial without words whose text is not longer is repeated: a name would not say it better."""
 
 MOST_ALTERNATIVES, MOST_NAMES = 6, 3
-"""More alternatives, or those of (vi) with more polynomials to be named, are counted, unless all is asked for."""
+"""More alternatives, or those of (vi) with more polynomials to be named, are counted unless all is asked for."""
 
 _TWINS = {"vii": "4", "viii": "5"}
 _NEARLY = {"i": ("5", "iii"), "ii": ("4", "iii"), "iv": ("4", "vi"), "v": ("5", "vi")}
@@ -60,8 +60,9 @@ class Citations:
 def cited(conditions: Iterable[Condition], expand: bool = True) -> Citations:
     """What is printed in full at its first place, and cited after it.
 
-    expand: all alternatives; else a few, and of (vi) none where its legs say the same in a line.  A factor stands by itself where it alone makes an alternative; where several do, they are cited.  It is
+    A factor stands by itself where it alone makes an alternative; where several do, they are cited.  It is
     cited by its words, by a short polynomial itself, else by a name with a number.
+    expand: all alternatives; else a few, and of (vi) none where its screws say the same in a line.
 
     >>> from singsym.conditions.conditions import conditions
     >>> from singsym.kinematics.velocity import velocity_equation
@@ -114,7 +115,7 @@ def cited(conditions: Iterable[Condition], expand: bool = True) -> Citations:
 
 
 def _comparison(condition: Condition, known: Mapping[str, Condition]) -> Entry | None:
-    """What a comparison of ranks comes to; None where the conditions that tell are not among the known ones."""
+    """What a comparison of ranks comes to; None where the conditions that tell are not known."""
     same, off = (known.get(label) for label in _NEARLY[condition.label])
     if same is None or off is None or off.everywhere:
         return None
@@ -124,12 +125,12 @@ def _comparison(condition: Condition, known: Mapping[str, Condition]) -> Entry |
 
 
 def _shortened(condition: Condition) -> Condition:
-    """The condition with a few alternatives; with none where its legs say it and these cite polynomials."""
+    """The condition with a few alternatives; with none where its screws say it and these cite polynomials."""
     alternatives = condition.alternatives
     if not alternatives:
         return condition
     names = {f.polynomial for f in condition.all_factors if not (f.words or is_short(f))}
-    if condition.legs and (len(alternatives) > MOST_ALTERNATIVES or len(names) > MOST_NAMES):
+    if condition.equilibrium and (len(alternatives) > MOST_ALTERNATIVES or len(names) > MOST_NAMES):
         return replace(condition, alternatives=())
     if len(alternatives) <= MOST_ALTERNATIVES or any(len(a) == 1 for a in alternatives[MOST_ALTERNATIVES:]):
         return condition

@@ -50,7 +50,9 @@ def _reduction_text(reduction: Reduction, expand: bool) -> str:
     if expand:
         return "\n".join([head, *(f"  {line}" for line in reduction.lines)])
     constant, varied = (
-        _joined(column for step in reduction.record if step.pivot.is_constant is kind for column in step.columns)
+        joined_columns(
+            column for step in reduction.record if step.pivot.is_constant is kind for column in step.columns
+        )
         for kind in (True, False)
     )
     said = [f"by constant pivots {constant}"] if constant else []
@@ -58,8 +60,12 @@ def _reduction_text(reduction: Reduction, expand: bool) -> str:
     return "\n".join([f"{head}, {'; '.join(said)}", f"  {reduction.lines[-1]}"])
 
 
-def _joined(columns: Iterable[str]) -> str:
-    """Columns in their order, those of one joint together: A.x, A.y, B as "A.xy, B"."""
+def joined_columns(columns: Iterable[str]) -> str:
+    """Columns in their order, those of one joint together.
+
+    >>> joined_columns(("A.x", "A.y", "B"))
+    'A.xy, B'
+    """
     joints: dict[str, list[str]] = {}
     for joint, _, part in (column.partition(".") for column in columns):
         joints.setdefault(joint, []).append(part)
@@ -93,11 +99,11 @@ def _entry(entry: Entry, found: Citations, written: NamedLengths, expand: bool) 
         head += "; in no configuration"
     elif condition.everywhere:
         head += "; in every configuration"
-    elif condition.alternatives is None and condition.comparison is None and condition.legs is None:
+    elif condition.alternatives is None and condition.comparison is None and condition.equilibrium is None:
         head += "; left as a rank: no determinant or list of minors is short enough"
     lines = [head]
-    if condition.legs and not entry.nowhere:
-        lines.append(f"  if {condition.legs.words}{'; that is,' if entry.alternatives else ''}")
+    if condition.equilibrium and not entry.nowhere:
+        lines.append(f"  if {condition.equilibrium.words}{'; that is,' if entry.alternatives else ''}")
     for place, alternative in enumerate(entry.alternatives):
         said = [f"{_full(f, found, written, expand)} = 0{_words(f)}" for f, full in alternative if full]
         said = said or [_cited([f for f, _ in alternative], found, written)]

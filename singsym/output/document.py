@@ -5,17 +5,12 @@ Source: singsym's own; amsmath and booktabs.
 
 from __future__ import annotations
 
-import re
-
 _PREAMBLE = r"""\documentclass[a4paper,10pt]{article}
 \usepackage[T1]{fontenc}
 \usepackage[utf8]{inputenc}
 \usepackage{lmodern}
 \usepackage[margin=22mm]{geometry}
-\usepackage{amsmath,amssymb,array,booktabs,graphicx}
-\newsavebox{\fitbox}
-\newcommand{\fitted}[1]{\par\medskip\noindent\sbox{\fitbox}{#1}%
-  \ifdim\wd\fitbox>\linewidth\resizebox{\linewidth}{!}{\usebox{\fitbox}}\else\hfil\usebox{\fitbox}\fi\par\medskip}
+\usepackage{amsmath,array,booktabs}
 \relpenalty=50 \binoppenalty=100 \emergencystretch=3em
 \lineskiplimit=1pt \lineskip=2pt
 \setlength{\parindent}{0pt} \setlength{\parskip}{3pt plus 1pt}
@@ -56,9 +51,4 @@ def escaped(text: str) -> str:
 def document(body: str, title: str) -> str:
     """A whole document around the LaTeX of a result."""
     head = f"{{\\LARGE\\bfseries {escaped(title)}\\par}}\\bigskip"
-    return f"{_PREAMBLE}\\begin{{document}}\n{head}\n\n{_without_fit(body)}\n\\end{{document}}"
-
-
-def _without_fit(body: str) -> str:
-    """The body with matrices scaled to the line, by a macro of the document's preamble."""
-    return re.sub(r"\\\[(\\begin\{array\}.*?\\end\{array\})\\\]", r"\\fitted{$\1$}", body, flags=re.DOTALL)
+    return f"{_PREAMBLE}\\begin{{document}}\n{head}\n\n{body}\n\\end{{document}}"

@@ -41,7 +41,7 @@ def test_vii_and_viii_refer_to_4_and_5() -> None:
 
 
 def test_comparisons_of_ranks_say_what_they_come_to() -> None:
-    """(vii), (viii) of section 2.3: off (iii) a configuration of (5) is RI, of (4) RO; off (vi) IO, and II."""
+    """(vii), (viii) of section 2.3: off (iii) those of (5) are RI and of (4) RO; off (vi) IO and II."""
     text = conditions_text(found("zlatanov-2dof"))
     for label, twin, off in (("i", 5, "iii"), ("ii", 4, "iii"), ("iv", 4, "vi"), ("v", 5, "vi")):
         (line,) = (line for line in text.splitlines() if line.startswith(f"({label}) "))
@@ -60,8 +60,8 @@ def test_iim_of_the_hybrid_chain_is_said_as_in_the_paper() -> None:
     """Section 5.3.2, step 1: screws A and C reciprocal to their legs, A - C reciprocal to the third."""
     lines = conditions_text(found("zlatanov-hybrid")).splitlines()
     place = lines.index("(vi) rank L < 18: IIM")
-    said = "screws reciprocal to B1 B2 B3 B4 and to C1 C2 C3 C4, not both 0, have a sum reciprocal to A1 A2 A3 A4"
-    assert lines[place + 1] == f"  if {said}"
+    both = "screws reciprocal to B1 B2 B3 B4 and to C1 C2 C3 C4, not both 0,"
+    assert lines[place + 1] == f"  if {both} have a sum reciprocal to A1 A2 A3 A4"
 
 
 def test_rpm_of_the_linkage_is_said_as_in_the_paper() -> None:

@@ -1,23 +1,26 @@
 r"""L in blocks with labels: a screw, a moment, an identity or zero for each joint and group of rows.
 
-Source: (6), (7) and (9) of Zlatanov, Fenton, Benhabib (1998) print L so.  What a name stands for follows the matrix; a
-block that is a multiple of another one of its joint is written with the name of that, and :math:`\tilde b` is the matrix
-of the cross product with b.
+Source: (6), (7) and (9) of Zlatanov, Fenton, Benhabib (1998) print L so.  What a name stands for follows the
+matrix; a block that is a multiple of another one of its joint is written with the name of that, and b with a
+tilde is the matrix of the cross product with b.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from flint import fmpq
 
+from singsym.kinematics.loops import loops
 from singsym.polynomials import Polynomial, PolynomialMatrix
 from singsym.polynomials.latex import polynomial_latex
 
 if TYPE_CHECKING:
     from singsym.kinematics.velocity import Column, Role, VelocityEquation
+    from singsym.mechanism.model import Mechanism
 
 SHORT = 2
 """An entry that stands alone is written out up to so many terms."""
@@ -38,7 +41,7 @@ class Heading:
 
 @dataclass(frozen=True)
 class Blocks:
-    """L as it is printed: labels of groups of rows and columns, a formula in each cell, and what its names are."""
+    """L as it is printed: labels of groups of rows and of columns, formulas of cells, and what names are."""
 
     rows: tuple[str, ...]
     columns: tuple[Heading, ...]
@@ -46,22 +49,26 @@ class Blocks:
     names: dict[str, PolynomialMatrix]
 
 
-def blocks(equation: VelocityEquation, point: str = "", recognise: Recognise | None = None) -> Blocks:
+def blocks(
+    equation: VelocityEquation, mechanism: Mechanism | None = None, recognise: Recognise | None = None
+) -> Blocks:
     """The velocity equation in blocks.
 
-    point: the output's, which moments are named after; recognise: a formula for an entry by itself, or "".
+    mechanism: for the output's point, which moments are named after, and for how loops pass joints.
+    recognise: a formula for an entry by itself, or "".
 
     >>> from singsym.kinematics.velocity import velocity_equation
     >>> from singsym.mechanism import load
-    >>> found = blocks(velocity_equation(load("zlatanov-2dof")), "G")
-    >>> print(*(" ".join(row) for row in found.cells), sep="\\n")
+    >>> mechanism = load("zlatanov-2dof")
+    >>> for row in blocks(velocity_equation(mechanism), mechanism).cells:
+    ...     print(" ".join(row))
     I 0 0 0 0 0 -m_{EG} -m_{FG} 0
     0 S_{A} S_{B} S_{C1} 0 -S_{D} 0 0 0
-    0 0 0 0 S_{C2} -S_{D} S_{E} S_{F} S_{G}
+    0 0 0 0 S_{C2} S_{D} -S_{E} S_{F} S_{G}
     """
     rows = _row_groups(equation)
     columns = _headings(equation, len(rows.get("output", ())))
-    names = _Names(point, recognise)
+    names = _Names(mechanism, recognise)
     cells = tuple(
         tuple(
             names.cell(group, heading, equation.matrix.select(places, heading.places), equation)
@@ -83,7 +90,7 @@ def _row_groups(equation: VelocityEquation) -> dict[str, tuple[int, ...]]:
 
 
 def _headings(equation: VelocityEquation, output_rows: int) -> tuple[Heading, ...]:
-    """Columns of one joint and role together; T's turns and translations apart where they have not all rows."""
+    """Columns of one joint and role together; turns and translations of T apart where rows are missing."""
     outputs = sum(column.role == "output" for column in equation.columns)
     found: dict[tuple[str, Role], list[int]] = {}
     for j, column in enumerate(equation.columns):
@@ -100,17 +107,29 @@ def _heading(column: Column, whole: bool) -> str:
 class _Names:
     """The names that were given, with what they stand for."""
 
-    point: str
+    mechanism: Mechanism | None
     recognise: Recognise | None
     values: dict[str, PolynomialMatrix] = field(default_factory=dict)
     known: dict[Heading, list[str]] = field(default_factory=dict)
+
+    @property
+    def point(self) -> str:
+        """The point of the only output."""
+        outputs = self.mechanism.outputs if self.mechanism else ()
+        return str(getattr(outputs[0], "point", "")) if len(outputs) == 1 else ""
+
+    @cached_property
+    def backwards(self) -> frozenset[tuple[str, str]]:
+        """Loops and joints that these pass from the second link to the first."""
+        listed = enumerate(loops(self.mechanism), 1) if self.mechanism else ()
+        return frozenset((f"loop {k}", joint.name) for k, loop in listed for joint, sign in loop if sign < 0)
 
     def cell(self, group: str, heading: Heading, block: PolynomialMatrix, equation: VelocityEquation) -> str:
         """A block as a formula."""
         size = block.shape[0]
         if not any(map(any, block.rows)):
             return "0"
-        unit = [[int(i == j) for j in range(block.width)] for i in range(size)]
+        unit = [[int(i == j) for j in range(size)] for i in range(size)]
         for sign, lead in ((1, ""), (-1, "-")):
             if [[e * sign for e in row] for row in block.rows] == unit:
                 return f"{lead}{'I' if size > 1 else '1'}"
@@ -124,10 +143,13 @@ class _Names:
                 return f"{factor_latex(ratio)}{name}"
         return self._named(group, heading, block, equation)
 
-    def _named(self, group: str, heading: Heading, block: PolynomialMatrix, equation: VelocityEquation) -> str:
+    def _named(
+        self, group: str, heading: Heading, block: PolynomialMatrix, equation: VelocityEquation
+    ) -> str:
         """A new name; an output's block has the sign with which the joint moves the output."""
         components = [row.rpartition(" ")[2] for row in equation.rows if row.startswith(f"{group} ")]
-        lead = "-" if group == "output" and len(components) > 1 else ""
+        turned = (group == "output" and len(components) > 1) or (group, heading.label) in self.backwards
+        lead = "-" if turned else ""
         value = block.map(lambda e: -e) if lead else block
         subscript = heading.label.replace("_", r"\_")
         if _cross_vector(value) is not None:
@@ -138,7 +160,8 @@ class _Names:
             base = f"d_{{{subscript}}}"
         elif set(components) <= {"x", "y", "z"} or not any(c.startswith("w") for c in components):
             at = self.point.replace("_", r"\_") if group == "output" else ""
-            base = f"m_{{{subscript}{at}}}"
+            comma = "," if at and len(subscript) > 1 else ""
+            base = f"m_{{{subscript}{comma}{at}}}"
         else:
             base = f"S_{{{subscript}}}{'^{T}' if group == 'output' else ''}"
         name, count = base, 1
@@ -157,7 +180,11 @@ def _ratio(block: PolynomialMatrix, other: PolynomialMatrix) -> fmpq | None:
     """The number that makes one block of the other; None where there is none."""
     if block.shape != other.shape:
         return None
-    pairs = [(a, b) for own, known in zip(block.rows, other.rows, strict=True) for a, b in zip(own, known, strict=True)]
+    pairs = [
+        (a, b)
+        for own, known in zip(block.rows, other.rows, strict=True)
+        for a, b in zip(own, known, strict=True)
+    ]
     first = next(((a, b) for a, b in pairs if a and b), None)
     if first is None:
         return None

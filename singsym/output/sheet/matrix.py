@@ -8,10 +8,13 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
+from itertools import combinations
 from typing import TYPE_CHECKING
 
+from singsym.kinematics.nonzero import Certifier
 from singsym.output.document import escaped
-from singsym.output.sheet.blocks import Heading, blocks, factor_latex, value_latex
+from singsym.output.sheet.blocks import Blocks, Heading, blocks, factor_latex, value_latex
 
 if TYPE_CHECKING:
     from singsym.conditions.conditions import Conditions
@@ -20,7 +23,7 @@ if TYPE_CHECKING:
     from singsym.output.sheet.blocks import Recognise
     from singsym.polynomials import Polynomial
 
-WIDEST = 29.0
+WIDEST = 31.0
 """An array may be so wide, in em: the line of a plain article has 34 at 10 pt."""
 
 LONGEST = 6
@@ -34,21 +37,21 @@ def matrix_latex(
     *,
     expand: bool = False,
 ) -> list[str]:
-    """L with labels, its arrays and then what the names in it stand for.
+    """L with labels: its arrays, then what the names in it stand for; entries in short forms, equal on loops.
 
     mechanism: for the name of the output's point; recognise: a formula for an entry by itself, or "".
 
     >>> from singsym.kinematics.velocity import velocity_equation
     >>> from singsym.mechanism import load
     >>> print(matrix_latex(velocity_equation(load("fourbar")))[0].splitlines()[2])
-    L & \\mathrm{T} & \\underline{\\mathrm{A}} & \\mathrm{B} & \\mathrm{C} & \\mathrm{D} \\\\
+    L & T & \\underline{\\mathrm{A}} & \\mathrm{B} & \\mathrm{C} & \\mathrm{D} \\\\
     """
-    point = getattr(mechanism.outputs[0], "point", "") if mechanism and len(mechanism.outputs) == 1 else ""
-    found = blocks(equation, point, recognise)
-    widths = [_width(h.label, *(row[j] for row in found.cells)) for j, h in enumerate(found.columns)]
+    shorten = Certifier(equation.space).shorten
+    found = blocks(replace(equation, matrix=equation.matrix.map(shorten)), mechanism, recognise)
+    heads = [_head(heading) for heading in found.columns]
+    widths = [_width(head, *(row[j] for row in found.cells)) for j, head in enumerate(heads)]
     parts = [
-        _array(found.rows, found.columns[low:high], [row[low:high] for row in found.cells])
-        for low, high in _cuts(widths, WIDEST - _width(*found.rows))
+        _array(found, heads, slice(low, high)) for low, high in _cuts(widths, WIDEST - _width(*found.rows))
     ]
     longest = sys.maxsize if expand else LONGEST
     said = [f"${value_latex(name, value, longest)}$" for name, value in found.names.items()]
@@ -60,42 +63,57 @@ def matrix_latex(
 def _width(*formulas: str) -> float:
     """About how wide a column is, in em."""
     plain = (re.sub(r"\\[a-zA-Z]+|[{}_^\\, ]", "", formula) for formula in formulas)
-    return 0.5 * max(map(len, plain), default=0) + 0.8
+    return 0.45 * max(map(len, plain), default=0) + 0.7
 
 
 def _cuts(widths: Sequence[float], widest: float) -> list[tuple[int, int]]:
-    """First and last columns of parts that are not too wide.
+    """First and last columns of parts that are not too wide, as few and as equal as can be.
 
-    >>> _cuts([3, 3, 3, 9], 7)
-    [(0, 2), (2, 3), (3, 4)]
+    >>> _cuts([3, 3, 3, 3, 9], 10)
+    [(0, 2), (2, 4), (4, 5)]
     """
-    found, low, total = [], 0, 0.0
-    for place, width in enumerate(widths):
-        if place > low and total + width > widest:
-            found.append((low, place))
-            low, total = place, 0.0
-        total += width
-    return [*found, (low, len(widths))]
+
+    def parts(limit: float) -> list[tuple[int, int]]:
+        found, low, total = [], 0, 0.0
+        for place, width in enumerate(widths):
+            if place > low and total + width > limit:
+                found.append((low, place))
+                low, total = place, 0.0
+            total += width
+        return [*found, (low, len(widths))]
+
+    fewest = parts(widest)
+    limits = [sum(widths[low:high]) for low, high in combinations(range(len(widths) + 1), 2)]
+    return next((cut for x in sorted(limits) if len(cut := parts(x)) == len(fewest)), fewest)
 
 
-def _array(rows: Sequence[str], columns: Sequence[Heading], cells: Sequence[Sequence[str]]) -> str:
-    """One array: roles of columns apart by lines, inputs underlined."""
-    layout, before = "", ""
-    for heading in columns:
-        layout += ("|" if heading.role == "output" or before in ("", "output") else "") + "c"
-        before = heading.role
-    mark = {"input": r"\underline{\mathrm{%s}}"}
-    heads = [mark.get(h.role, r"\mathrm{%s}") % escaped(h.label) for h in columns]
-    body = " \\\\\n".join(
-        f"\\text{{{escaped(label)}}} & {' & '.join(row)}" for label, row in zip(rows, cells, strict=True)
-    )
+def _head(heading: Heading) -> str:
+    """What stands over columns: inputs underlined, T in turns and translations where it is in parts."""
+    name, _, part = heading.label.partition(".")
+    if heading.role == "output":
+        return (
+            name if not part else f"{name}_{{{'v' if part == 'v' else 'omega'}}}".replace("omega", r"\omega")
+        )
+    upright = rf"\mathrm{{{escaped(heading.label)}}}"
+    return rf"\underline{{{upright}}}" if heading.role == "input" else upright
+
+
+def _array(found: Blocks, heads: Sequence[str], part: slice) -> str:
+    """One array with some of the columns, the output's apart from the joints by a line."""
+    shown = found.columns[part]
+    joints = next((j for j, heading in enumerate(shown) if heading.role != "output"), len(shown))
+    layout = f"r|{'c' * joints}{'|' if 0 < joints < len(shown) else ''}{'c' * (len(shown) - joints)}"
+    rows = zip(found.rows, found.cells, strict=True)
+    body = " \\\\\n".join(rf"\text{{{escaped(label)}}} & {' & '.join(cells[part])}" for label, cells in rows)
     return (
-        f"{{\\arraycolsep=3pt\n\\[\\begin{{array}}{{r{layout}}}\n"
-        f"L & {' & '.join(heads)} \\\\\n\\hline\n\\rule{{0pt}}{{2.6ex}}{body}\n\\end{{array}}\\]}}"
+        f"{{\\arraycolsep=3pt\n\\[\\begin{{array}}{{{layout}}}\n"
+        f"L & {' & '.join(heads[part])} \\\\\n\\hline\n\\rule{{0pt}}{{2.6ex}}{body}\n\\end{{array}}\\]}}"
     )
 
 
-def reduced_latex(found: Conditions, mechanism: Mechanism | None = None, *, expand: bool = False) -> list[str]:
+def reduced_latex(
+    found: Conditions, mechanism: Mechanism | None = None, *, expand: bool = False
+) -> list[str]:
     """L after the reduction; an entry by itself that is a determinant of named points is written as that."""
 
     def recognise(entry: Polynomial) -> str:

@@ -1,9 +1,9 @@
-"""Conditions (vi) and (4) by legs: screws in equilibrium, each reciprocal to the joints of its leg.
+"""Conditions (vi) and (4) as an equilibrium of screws, each reciprocal to the joints of its leg.
 
-Source: Zlatanov, Fenton, Benhabib (1998), step 1 of section 5.3.2, for (vi) and two loops.  The same for any number:
-only the output's rows have T, with an identity, so that a row vector y with y L = 0 is zero there and a screw for each
-loop.  A joint in several loops asks that the sum of their screws, with the signs by which they pass it, is reciprocal to
-its own.  For y L_I = 0, condition (4), only passive joints ask.
+Source: Zlatanov, Fenton, Benhabib (1998), step 1 of section 5.3.2, for (vi) and two loops.  The same for any
+number: only the output's rows have T, with an identity, so that a row vector y with y L = 0 is zero there and a
+screw for each loop.  A joint in several loops asks that the sum of their screws, with the signs by which they
+pass it, is reciprocal to its own.  For y L_I = 0, condition (4), only passive joints ask.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ _IDLE = "no idle spin at "
 
 
 @dataclass(frozen=True)
-class Legs:
-    """Joints that lie in the same loops make a leg; L, or L_I, drops in rank where screws can be chosen as said.
+class Equilibrium:
+    """Joints in the same loops make a leg; L, or L_I, drops in rank where screws can be chosen as said.
 
     joints: the names of those of each leg whose columns the matrix has.
     carried: for each leg the signs with which the free screws make up the one that is reciprocal to its joints.
@@ -45,7 +45,7 @@ class Legs:
 
         >>> from singsym.kinematics.velocity import velocity_equation
         >>> from singsym.mechanism import load
-        >>> legs_of(velocity_equation(load("3rrr"))).words
+        >>> equilibrium(velocity_equation(load("3rrr"))).words
         'screws reciprocal to A2 B2 C2 and to A3 B3 C3, not both 0, have a sum reciprocal to A1 B1 C1'
         """
         names = [" ".join(joints) for joints in self.joints]
@@ -54,7 +54,8 @@ class Legs:
         if not rest:
             said = f"a screw other than 0 is reciprocal to {own[0]}"
         elif len(own) == 2 and len(rest) == 1:
-            said = f"screws reciprocal to {own[0]} and to {own[1]}, not both 0, have a sum reciprocal to {names[rest[0]]}"
+            both = f"screws reciprocal to {own[0]} and to {own[1]}, not both 0,"
+            said = f"{both} have a sum reciprocal to {names[rest[0]]}"
         else:
             screws = [(f"w{i}", name) for i, name in enumerate(own, 1)]
             screws += [(_sum(self.carried[k]), names[k]) for k in rest]
@@ -65,7 +66,7 @@ class Legs:
         return f"{said} (without spins of struts at {', '.join(self.idle)})" if self.idle else said
 
 
-def legs_of(equation: VelocityEquation, inputs: bool = True) -> Legs | None:
+def equilibrium(equation: VelocityEquation, inputs: bool = True) -> Equilibrium | None:
     """The legs of a mechanism with loops; None without loops, and where couplings tie rates to each other.
 
     inputs: whether the columns of the inputs count, as in L and not in L_I.
@@ -92,7 +93,7 @@ def legs_of(equation: VelocityEquation, inputs: bool = True) -> Legs | None:
     carried = _carried(free, list(patterns))
     if carried is None or len(free) < len(blocks):
         return None
-    return Legs(
+    return Equilibrium(
         tuple(tuple(joints) for joints in patterns.values()),
         carried,
         tuple(list(patterns).index(signs) for signs in free),
