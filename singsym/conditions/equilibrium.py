@@ -1,9 +1,9 @@
 """Conditions (vi) and (4) as an equilibrium of screws, each reciprocal to the joints of its leg.
 
 Source: Zlatanov, Fenton, Benhabib (1998), step 1 of section 5.3.2, for (vi) and two loops.  The same for any
-number: only the output's rows have T, with an identity, so that a row vector y with y L = 0 is zero there and a
-screw for each loop.  A joint in several loops asks that the sum of their screws, with the signs by which they
-pass it, is reciprocal to its own.  For y L_I = 0, condition (4), only passive joints ask.
+number: only the output's rows have T, with an identity, so that a row vector y with y L = 0 is zero there and
+a screw for each loop.  A joint in several loops asks that the sum of their screws, with the signs by which
+they pass it, is reciprocal to its own.  For y L_I = 0, condition (4), only passive joints ask.
 """
 
 from __future__ import annotations
@@ -27,10 +27,10 @@ class Equilibrium:
     """Joints in the same loops make a leg; L, or L_I, drops in rank where screws can be chosen as said.
 
     joints: the names of those of each leg whose columns the matrix has.
-    carried: for each leg the signs with which the free screws make up the one that is reciprocal to its joints.
+    carried: for each leg the signs with which free screws make up the one that is reciprocal to its joints.
     free: places of the legs that bear one free screw each.
     idle: spherical joints whose spin about their strut is left out.
-    surplus: rows that the matrix has more than N; so many independent choices there are in every configuration.
+    surplus: rows that the matrix has more than N: so many independent choices there are everywhere.
     """
 
     joints: tuple[tuple[str, ...], ...]

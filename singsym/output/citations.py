@@ -1,8 +1,8 @@
 """What is printed once of a mechanism's conditions and cited after: equal conditions, and polynomials.
 
-Source: Zlatanov, Fenton, Benhabib (1998), the proposition of section 2.3.  (vii) and (viii) repeat (4) and (5), and
-say that a configuration of (5) is RI or RPM, and IO or IIM: so (i) is (5) where (iii) does not hold, and in the
-same way (ii) is (4) off (iii), (iv) is (4) off (vi), and (v) is (5) off (vi).  Minors share factors.
+Source: Zlatanov, Fenton, Benhabib (1998), the proposition of section 2.3.  (vii) and (viii) repeat (4) and
+(5), and say that a configuration of (5) is RI or RPM, and IO or IIM: so (i) is (5) where (iii) does not hold;
+in the same way (ii) is (4) off (iii), (iv) is (4) off (vi), and (v) is (5) off (vi).  Minors share factors.
 """
 
 from __future__ import annotations
@@ -17,8 +17,11 @@ from singsym.polynomials import Polynomial
 SHORT = 24
 """A polynomial without words whose text is not longer is repeated: a name would not say it better."""
 
+FEW = 2
+"""More factors than these that were taken away are counted, unless all is asked for."""
+
 MOST_ALTERNATIVES, MOST_NAMES = 6, 3
-"""More alternatives, or those of (vi) with more polynomials to be named, are counted unless all is asked for."""
+"""More alternatives, or more names in those of (vi), are counted unless all is asked for."""
 
 _TWINS = {"vii": "4", "viii": "5"}
 _NEARLY = {"i": ("5", "iii"), "ii": ("4", "iii"), "iv": ("4", "vi"), "v": ("5", "vi")}

@@ -11,7 +11,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from singsym.conditions.named_lengths import NamedLengths, in_decimals
-from singsym.output.citations import Citations, Entry, cited, is_short
+from singsym.output.citations import FEW, Citations, Entry, cited, is_short
 from singsym.output.document import escaped
 from singsym.polynomials.latex import polynomial_latex, symbol_latex
 
@@ -54,7 +54,7 @@ def _entry(entry: Entry, found: Citations, written: NamedLengths, longest: int) 
         off = rf" where ({entry.off}) does not hold; where it does, the ranks decide" if entry.off else ""
         return f"{head}, as ({entry.same_as}){off}."
     if entry.nowhere:
-        return f"{head}, in no configuration.{_units(condition)}"
+        return f"{head}, in no configuration.{_units(condition, longest)}"
     if condition.everywhere:
         return f"{head}, in every configuration."
     items = [rf"\item[if] {escaped(condition.equilibrium.words)}"] if condition.equilibrium else []
@@ -70,10 +70,13 @@ def _entry(entry: Entry, found: Citations, written: NamedLengths, longest: int) 
     if not items:
         return f"{head}."
     listed = "\n".join(items)
-    return f"{head}\n\\begin{{itemize}}\n{listed}\n\\end{{itemize}}{_units(condition)}"
+    return f"{head}\n\\begin{{itemize}}\n{listed}\n\\end{{itemize}}{_units(condition, longest)}"
 
 
-def _units(condition: Condition) -> str:
+def _units(condition: Condition, longest: int) -> str:
+    """The factors that were taken away; a few, unless all is asked for."""
+    if longest == LONGEST and len(condition.units) > FEW:
+        return f"\n{len(condition.units)} factors that vanish nowhere in the feasible set are left out."
     said = [f"${polynomial_latex(u.polynomial, 6)}$ ({escaped(u.reason)})" for u in condition.units]
     return f"\nFactors without a feasible zero are left out: {'; '.join(said)}." if said else ""
 

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from singsym.conditions.named_lengths import NamedLengths, values_text
-from singsym.output.citations import Citations, Entry, cited, is_short
+from singsym.output.citations import FEW, Citations, Entry, cited, is_short
 from singsym.output.page import Block, Page
 from singsym.output.text import matrix_page
 
@@ -17,9 +17,6 @@ if TYPE_CHECKING:
     from singsym.conditions.conditions import Condition, Conditions
     from singsym.conditions.factor import Factor
     from singsym.kinematics.reduction import Reduction
-
-FEW = 2
-"""More factors than these that were taken away are counted, unless all is asked for."""
 
 MOST, HEAD, WIDEST = 8, 4, 120
 """Of polynomials with more terms or letters than these the first few are printed, unless all is asked for."""
@@ -49,15 +46,17 @@ def _reduction_text(reduction: Reduction, expand: bool) -> str:
     head = "Reduction (section 4.2)"
     if expand:
         return "\n".join([head, *(f"  {line}" for line in reduction.lines)])
+    return "\n".join([f"{head}, {'; '.join(reduction_lines(reduction))}", f"  {reduction.lines[-1]}"])
+
+
+def reduction_lines(reduction: Reduction) -> list[str]:
+    """The columns that went by constant pivots, and those that went by others."""
     constant, varied = (
-        joined_columns(
-            column for step in reduction.record if step.pivot.is_constant is kind for column in step.columns
-        )
+        joined_columns(c for step in reduction.record if step.pivot.is_constant is kind for c in step.columns)
         for kind in (True, False)
     )
     said = [f"by constant pivots {constant}"] if constant else []
-    said += [f"by others that vanish nowhere {varied}"] if varied else []
-    return "\n".join([f"{head}, {'; '.join(said)}", f"  {reduction.lines[-1]}"])
+    return [*said, f"by others that vanish nowhere {varied}"] if varied else said
 
 
 def joined_columns(columns: Iterable[str]) -> str:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from singsym.conditions.named_lengths import NamedLengths
 from singsym.output.conditions_latex import listed_latex, values_latex
-from singsym.output.conditions_page import joined_columns
+from singsym.output.conditions_page import reduction_lines
 from singsym.output.document import escaped
 from singsym.output.pieces import (
     alike,
@@ -108,22 +108,19 @@ def conditions_latex(
 def reduction_latex(conditions: Conditions, *, expand: bool = False) -> list[str]:
     """The record of the reduction: which passive velocities went, and why that is allowed.
 
-    expand: constant pivots one by one.
+    expand: each by itself, with its pivot.
     """
     reduction = conditions.reduction
     items = []
-    plain = [step for step in reduction.record if step.pivot.is_constant and len(step.rows) == 1]
-    if plain and not expand:
-        columns = joined_columns(column for step in plain for column in step.columns)
-        items.append(f"\\item {escaped(columns)} by constant pivots")
-    for step in reduction.record:
-        if step in plain and not expand:
-            continue
-        which = ", ".join(step.columns)
-        rows = escaped(", ".join(step.rows))
-        by = f"by row {rows}, pivot" if len(step.rows) == 1 else f"from rows {rows}, sum of squares"
-        reason = "" if step.pivot.is_constant else f": {escaped(step.reason)}"
-        items.append(f"\\item {escaped(which)} {by} ${polynomial_latex(step.pivot, 8)}${reason}")
+    if expand:
+        for step in reduction.record:
+            which = ", ".join(step.columns)
+            rows = escaped(", ".join(step.rows))
+            by = f"by row {rows}, pivot" if len(step.rows) == 1 else f"from rows {rows}, sum of squares"
+            reason = "" if step.pivot.is_constant else f": {escaped(step.reason)}"
+            items.append(f"\\item {escaped(which)} {by} ${polynomial_latex(step.pivot, 8)}${reason}")
+    else:
+        items = [f"\\item {escaped(line)}" for line in reduction_lines(reduction)]
     size = r" \times ".join(map(str, reduction.equation.matrix.shape))
     last = f"Every rank is that of the reduced matrix (${size}$) plus {reduction.constant}."
     if not items:

@@ -7,6 +7,7 @@ tilde is the matrix of the cross product with b.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -15,6 +16,7 @@ from typing import TYPE_CHECKING
 from flint import fmpq
 
 from singsym.kinematics.loops import loops
+from singsym.kinematics.velocity import output_path
 from singsym.polynomials import Polynomial, PolynomialMatrix
 from singsym.polynomials.latex import polynomial_latex
 
@@ -24,6 +26,8 @@ if TYPE_CHECKING:
 
 SHORT = 2
 """An entry that stands alone is written out up to so many terms."""
+
+ALL = sys.maxsize
 
 _CROSS = r"\tilde{b}"
 
@@ -76,7 +80,8 @@ def blocks(
         )
         for group, places in rows.items()
     )
-    return Blocks(tuple(rows), columns, cells, names.values)
+    labels = tuple(group.replace("no idle spin at", "spin of") for group in rows)
+    return Blocks(labels, columns, cells, names.values)
 
 
 def _row_groups(equation: VelocityEquation) -> dict[str, tuple[int, ...]]:
@@ -120,19 +125,24 @@ class _Names:
 
     @cached_property
     def backwards(self) -> frozenset[tuple[str, str]]:
-        """Loops and joints that these pass from the second link to the first."""
-        listed = enumerate(loops(self.mechanism), 1) if self.mechanism else ()
-        return frozenset((f"loop {k}", joint.name) for k, loop in listed for joint, sign in loop if sign < 0)
+        """Loops, and the way to the output, with joints that they pass from the second link to the first."""
+        if self.mechanism is None:
+            return frozenset()
+        ways = {f"loop {k}": loop for k, loop in enumerate(loops(self.mechanism), 1)}
+        if len(self.mechanism.outputs) == 1:
+            ways["output"] = output_path(self.mechanism, self.mechanism.outputs[0])
+        return frozenset(
+            (group, joint.name) for group, way in ways.items() for joint, sign in way if sign < 0
+        )
 
     def cell(self, group: str, heading: Heading, block: PolynomialMatrix, equation: VelocityEquation) -> str:
         """A block as a formula."""
         size = block.shape[0]
         if not any(map(any, block.rows)):
             return "0"
-        unit = [[int(i == j) for j in range(size)] for i in range(size)]
-        for sign, lead in ((1, ""), (-1, "-")):
-            if [[e * sign for e in row] for row in block.rows] == unit:
-                return f"{lead}{'I' if size > 1 else '1'}"
+        unit = PolynomialMatrix.of(block.ring, [[int(i == j) for j in range(size)] for i in range(size)])
+        if (multiple := _ratio(block, unit)) is not None and (size > 1 or abs(multiple) == 1):
+            return f"{factor_latex(multiple)}{'I' if size > 1 else '1'}"
         if block.shape == (1, 1):
             entry = block[0, 0]
             said = self.recognise(entry) if self.recognise and len(entry) > 1 else ""
@@ -148,10 +158,11 @@ class _Names:
     ) -> str:
         """A new name; an output's block has the sign with which the joint moves the output."""
         components = [row.rpartition(" ")[2] for row in equation.rows if row.startswith(f"{group} ")]
-        turned = (group == "output" and len(components) > 1) or (group, heading.label) in self.backwards
+        # the output's rows have T less what the joints contribute
+        turned = (group == "output" and len(components) > 1) != ((group, heading.label) in self.backwards)
         lead = "-" if turned else ""
         value = block.map(lambda e: -e) if lead else block
-        subscript = heading.label.replace("_", r"\_")
+        subscript = heading.label.replace("_", r"\_").replace(".", "")
         if _cross_vector(value) is not None:
             base = f"{_CROSS}_{{{self._count(_CROSS) + 1}}}"
         elif value.shape == (1, 1):
@@ -213,20 +224,20 @@ def _cross_vector(block: PolynomialMatrix) -> tuple[Polynomial, ...] | None:
     return (block[2, 1], block[0, 2], block[1, 0])
 
 
-def value_latex(name: str, value: PolynomialMatrix, longest: int) -> str:
+def value_latex(name: str, value: PolynomialMatrix) -> str:
     """What a name stands for: columns as tuples, turns before a semicolon and translations after it."""
     vector = _cross_vector(value)
     if vector is not None:
-        return rf"{name.replace(_CROSS, 'b')} = {_tuple(vector, longest)}"
+        return rf"{name.replace(_CROSS, 'b')} = {_tuple(vector)}"
     if value.shape == (1, 1):
-        return f"{name} = {polynomial_latex(value[0, 0], longest)}"
+        return f"{name} = {polynomial_latex(value[0, 0], ALL)}"
     if value.shape[0] == 1:
-        return f"{name} = {_tuple(value.rows[0], longest)}"
-    columns = [_tuple(column, longest) for column in value.T.rows]
+        return f"{name} = {_tuple(value.rows[0])}"
+    columns = [_tuple(column) for column in value.T.rows]
     return f"{name} = {columns[0]}" if len(columns) == 1 else f"{name} = [{', '.join(columns)}]"
 
 
-def _tuple(entries: tuple[Polynomial, ...], longest: int) -> str:
-    said = [polynomial_latex(e, longest) for e in entries]
+def _tuple(entries: tuple[Polynomial, ...]) -> str:
+    said = [polynomial_latex(e, ALL) for e in entries]
     halves = (said[:3], said[3:]) if len(said) == 6 else (said,)
     return f"({'; '.join(', '.join(half) for half in halves)})"

@@ -6,7 +6,6 @@ Source: (6), (7) and (9) of Zlatanov, Fenton, Benhabib (1998).
 from __future__ import annotations
 
 import re
-import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import combinations
@@ -21,13 +20,13 @@ if TYPE_CHECKING:
     from singsym.kinematics.velocity import VelocityEquation
     from singsym.mechanism.model import Mechanism
     from singsym.output.sheet.blocks import Recognise
-    from singsym.polynomials import Polynomial
+    from singsym.polynomials import Polynomial, PolynomialMatrix
 
-WIDEST = 31.0
+WIDEST = 33.0
 """An array may be so wide, in em: the line of a plain article has 34 at 10 pt."""
 
 LONGEST = 6
-"""Entries with more terms are cut, unless all is asked for."""
+"""What a name stands for is left out where an entry has more terms, unless all is asked for."""
 
 
 def matrix_latex(
@@ -53,17 +52,33 @@ def matrix_latex(
     parts = [
         _array(found, heads, slice(low, high)) for low, high in _cuts(widths, WIDEST - _width(*found.rows))
     ]
-    longest = sys.maxsize if expand else LONGEST
-    said = [f"${value_latex(name, value, longest)}$" for name, value in found.names.items()]
+    long = [name for name, value in found.names.items() if not expand and _terms(value) > LONGEST]
+    said = [f"${value_latex(name, value)}$" for name, value in found.names.items() if name not in long]
     if any(name.startswith(r"\tilde") for name in found.names):
         said.append(r"$\tilde{b}\,w = b \times w$")
-    return [*parts, *(["with " + ",\n".join(said) + "."] if said else [])]
+    parts += ["with " + ",\n".join(said) + "."] if said else []
+    return [*parts, f"Cut here as they are long: ${', '.join(long)}$."] if long else parts
+
+
+def _terms(value: PolynomialMatrix) -> int:
+    """Terms of the longest entry."""
+    return max(len(e) for row in value.rows for e in row)
 
 
 def _width(*formulas: str) -> float:
-    """About how wide a column is, in em."""
-    plain = (re.sub(r"\\[a-zA-Z]+|[{}_^\\, ]", "", formula) for formula in formulas)
-    return 0.45 * max(map(len, plain), default=0) + 0.7
+    """About how wide a column is, in em; not less than it is.
+
+    >>> round(_width("-m_{A1}", "0"), 2)
+    3.06
+    """
+    return max(map(_formula_width, formulas), default=0.0) + 0.6
+
+
+def _formula_width(formula: str) -> float:
+    bare = re.sub(r"\\[a-zA-Z]+|\\.|[, ]", "", formula)
+    raised = "".join(re.findall(r"[_^]\{+([^}]*)\}", bare))
+    level = re.sub(r"[_^]\{+[^}]*\}|[{}]", "", bare)
+    return 0.75 * len(level) + 0.48 * len(raised)
 
 
 def _cuts(widths: Sequence[float], widest: float) -> list[tuple[int, int]]:
@@ -106,7 +121,7 @@ def _array(found: Blocks, heads: Sequence[str], part: slice) -> str:
     rows = zip(found.rows, found.cells, strict=True)
     body = " \\\\\n".join(rf"\text{{{escaped(label)}}} & {' & '.join(cells[part])}" for label, cells in rows)
     return (
-        f"{{\\arraycolsep=3pt\n\\[\\begin{{array}}{{{layout}}}\n"
+        f"{{\\arraycolsep=3pt \\def\\arraystretch{{1.2}}\n\\[\\begin{{array}}{{{layout}}}\n"
         f"L & {' & '.join(heads[part])} \\\\\n\\hline\n\\rule{{0pt}}{{2.6ex}}{body}\n\\end{{array}}\\]}}"
     )
 
