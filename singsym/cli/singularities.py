@@ -29,12 +29,14 @@ def run_conditions(chosen: argparse.Namespace) -> int:
     """`singsym conditions MECHANISM`."""
     from singsym.conditions.conditions import conditions
     from singsym.conditions.named_lengths import named_lengths
+    from singsym.output.citations import printed_labels
 
     mechanism = read(chosen, redundant=True)
     if is_redundant(mechanism):
         return _redundant_conditions(chosen, mechanism)
     found = conditions(placed(mechanism, chosen.formulation))
-    lengths = named_lengths(mechanism, found.equation)
+    everything = chosen.expand or chosen.format == "json"
+    lengths = named_lengths(mechanism, found.equation, printed_labels(found, everything))
     if chosen.format == "json":
         from singsym.output.plain_data import conditions_data
 

@@ -60,6 +60,11 @@ class Citations:
         return tuple(sorted(self.numbers[f.polynomial] for f in factors if f.polynomial in self.numbers))
 
 
+def printed_labels(conditions: Iterable[Condition], expand: bool) -> tuple[str, ...]:
+    """The labels of the conditions whose factors are printed."""
+    return tuple(entry.condition.label for entry in cited(conditions, expand).entries if entry.alternatives)
+
+
 def cited(conditions: Iterable[Condition], expand: bool = True) -> Citations:
     """What is printed in full at its first place, and cited after it.
 
