@@ -21,7 +21,7 @@ from singsym.polynomials import Polynomial, PolynomialMatrix
 from singsym.polynomials.latex import polynomial_latex
 
 if TYPE_CHECKING:
-    from singsym.kinematics.velocity import Column, Role, VelocityEquation
+    from singsym.kinematics.velocity import Role, VelocityEquation
     from singsym.mechanism.model import Mechanism
 
 SHORT = 2
@@ -95,17 +95,20 @@ def _row_groups(equation: VelocityEquation) -> dict[str, tuple[int, ...]]:
 
 
 def _headings(equation: VelocityEquation, output_rows: int) -> tuple[Heading, ...]:
-    """Columns of one joint and role together; turns and translations of T apart where rows are missing."""
+    """Columns of one joint and role together; turns and translations of T apart where rows are missing.
+
+    Where only L is given, without rows of an output, each column stands by itself.
+    """
     outputs = sum(column.role == "output" for column in equation.columns)
     found: dict[tuple[str, Role], list[int]] = {}
     for j, column in enumerate(equation.columns):
-        found.setdefault((_heading(column, outputs == output_rows), column.role), []).append(j)
+        joint, _, part = column.label.partition(".")
+        if not output_rows:
+            joint = column.label
+        elif column.role == "output" and part[:1] in ("w", "v") and outputs != output_rows:
+            joint = f"{joint}.{part[0]}"
+        found.setdefault((joint, column.role), []).append(j)
     return tuple(Heading(label, role, tuple(places)) for (label, role), places in found.items())
-
-
-def _heading(column: Column, whole: bool) -> str:
-    joint, _, part = column.label.partition(".")
-    return f"{joint}.{part[0]}" if column.role == "output" and part[:1] in ("w", "v") and not whole else joint
 
 
 @dataclass

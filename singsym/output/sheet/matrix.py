@@ -106,9 +106,8 @@ def _head(heading: Heading) -> str:
     """What stands over columns: inputs underlined, T in turns and translations where it is in parts."""
     name, _, part = heading.label.partition(".")
     if heading.role == "output":
-        return (
-            name if not part else f"{name}_{{{'v' if part == 'v' else 'omega'}}}".replace("omega", r"\omega")
-        )
+        index = {"": "", "w": r"_{\omega}", "v": "_{v}"}.get(part, rf"_{{\mathrm{{{escaped(part)}}}}}")
+        return f"{name}{index}"
     upright = rf"\mathrm{{{escaped(heading.label)}}}"
     return rf"\underline{{{upright}}}" if heading.role == "input" else upright
 
