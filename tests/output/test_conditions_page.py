@@ -105,6 +105,6 @@ def test_factors_that_were_taken_away_are_counted() -> None:
 
 def test_names_are_the_same_in_latex() -> None:
     names = set(cited(found("3rrr")).numbers.values())
-    text = listed_latex(found("3rrr"))
+    text = listed_latex(found("3rrr"), expand=True)
     assert {int(k) for k in re.findall(r"f_\{(\d+)\}", text)} == names
     assert "as (4)." in text
