@@ -64,6 +64,6 @@ def fragment(body: str) -> str:
     >>> print(fragment("$x$").splitlines()[0])
     % For \\input; the document needs \\usepackage{amsmath,array,booktabs}
     """
-    # lines are broken as in a document of singsym's own: long formulas would stick out of justified ones
-    setting = r"\begingroup\raggedright\emergencystretch=3em\relpenalty=50\binoppenalty=100"
+    # long formulas would stick out of justified lines, and wide tables out of narrow pages
+    setting = r"\begingroup\raggedright\emergencystretch=3em\relpenalty=50\binoppenalty=100\tabcolsep=3pt"
     return f"% For \\input; the document needs \\usepackage{{{PACKAGES}}}\n{setting}\n{body}\n\\par\\endgroup"
