@@ -101,7 +101,7 @@ def _entry(entry: Entry, found: Citations, written: NamedLengths, expand: bool) 
     elif condition.alternatives is None and condition.comparison is None and condition.equilibrium is None:
         head += "; left as a rank: no determinant or list of minors is short enough"
     lines = [head]
-    if condition.equilibrium and not entry.nowhere:
+    if condition.equilibrium and not (entry.nowhere or condition.everywhere):
         lines.append(f"  if {condition.equilibrium.words}{'; that is,' if entry.alternatives else ''}")
     for place, alternative in enumerate(entry.alternatives):
         said = [f"{_full(f, found, written, expand)} = 0{_words(f)}" for f, full in alternative if full]
