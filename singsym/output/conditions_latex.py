@@ -61,7 +61,7 @@ def _entry(entry: Entry, found: Citations, written: NamedLengths, longest: int) 
     for place, alternative in enumerate(entry.alternatives):
         said = [f"${_full(f, found, written, longest)} = 0${_words(f)}" for f, full in alternative if full]
         said = said or [_cited([f for f, _ in alternative], found, written)]
-        lead = "or" if place else "that is" if condition.equilibrium else "if"
+        lead = "or" if place else "i.e." if condition.equilibrium else "if"
         items.append(rf"\item[{lead}] {said[0]}")
     if entry.left_out:
         what = "further ways" if entry.alternatives else "sets of factors that vanish together, written out"
