@@ -44,7 +44,7 @@ def summary(result: Classification) -> tuple[str, ...]:
         own = [c for c in result.classes if kind in c.types]
         if kind in _ALWAYS or not all(c.verdict.is_no for c in own):
             meaning = _meaning(kind, result.equation.n)
-            lines.append(f"{asked} ({kind.name}, {meaning}): {_occurrence(own, result)}")
+            lines.append(f"{asked} ({kind.name}, {meaning}): {occurrence(own, result)}")
     return (*lines, _classes(result))
 
 
@@ -100,7 +100,7 @@ def _meaning(kind: SingularityType, n: int) -> str:
     return IN_WORDS[kind].replace("all inputs", "the input") if n == 1 else IN_WORDS[kind]
 
 
-def _occurrence(own: Sequence[ClassResult], result: Classification) -> str:
+def occurrence(own: Sequence[ClassResult], result: Classification) -> str:
     """How many or how large the configurations of some classes are together, and how that is known."""
     there = [c for c in own if c.verdict.is_yes]
     left = [c for c in own if c.verdict.is_undecided]

@@ -129,11 +129,11 @@ def run_show(chosen: argparse.Namespace) -> int:
             found |= {"robot": robot_data(robot)}
         emit_data(found)
     elif chosen.format == "latex":
-        from singsym.output.document import document
+        from singsym.output.document import document, fragment
         from singsym.output.latex import mechanism_latex
 
         body = mechanism_latex(mechanism, equation)
-        print(document(body, mechanism.title or mechanism.name) if chosen.standalone else body)
+        print(document(body, mechanism.title or mechanism.name) if chosen.standalone else fragment(body))
     else:
         from singsym.kinematics.modules import driven_modules
         from singsym.output.module_graph import modules_page

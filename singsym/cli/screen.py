@@ -16,7 +16,7 @@ from singsym.cli.watch import talk, watched
 
 if TYPE_CHECKING:
     from singsym.effort.progress import Event
-    from singsym.output.page import Page
+    from singsym.output.page import Grid, Page
 
 
 class UserError(Exception):
@@ -54,28 +54,44 @@ def emit_page(page: Page) -> None:
             table = Table(title=block.title or None, title_justify="left", box=box.SIMPLE_HEAD)
             table.show_edge = table.pad_edge = False
             table.padding = (0, 1, 0, 0)
+            words = _longest_words(block)
+            fits = sum(words) + len(words) <= console.width
             for place, header in enumerate(block.headers):
-                # what a row is called stays in one line, and nothing is cut off
-                table.add_column(Text(header), no_wrap=place == 0, overflow="fold")
+                # what a row is called stays in one line, words stay whole where they can, nothing is cut off
+                least = words[place] if fits else None
+                table.add_column(Text(header), no_wrap=place == 0, overflow="fold", min_width=least)
             for row in block.rows:
                 table.add_row(*(Text(cell) for cell in row))
             console.print(table)
         console.print()
 
 
-def _wrapped(block: str, width: int) -> str:
-    """Lines of a text broken between words, the rest of a line indented under it.
+def _longest_words(grid: Grid) -> list[int]:
+    """How wide each column has to be for its words; what a row is called is one word.
 
-    >>> print(_wrapped("  one two three", 10))
+    >>> from singsym.output.page import Grid
+    >>> _longest_words(Grid(("class", "known by"), (("1", "certified"),)))
+    [5, 9]
+    """
+    columns = list(zip(grid.headers, *grid.rows, strict=True))
+    names = max(map(len, columns[0]), default=0)
+    return [names, *(max(len(w) for cell in column for w in [*cell.split(), ""]) for column in columns[1:])]
+
+
+def _wrapped(block: str, width: int) -> str:
+    """Lines of a text broken between words, not beside "=" or before a unit, the rest indented under it.
+
+    >>> print(_wrapped("  one two A = 90 deg", 13))
       one two
-          three
+          A = 90 deg
     """
     lines = []
-    for line in block.splitlines():
+    for whole in block.splitlines():
+        line = whole.replace(" = ", "\xa0=\xa0").replace(" deg", "\xa0deg")
         indent = " " * (len(line) - len(line.lstrip()) + 4)
         broken = wrap(line, width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
         lines += broken or [""]
-    return "\n".join(lines)
+    return "\n".join(lines).replace("\xa0", " ")
 
 
 @contextmanager

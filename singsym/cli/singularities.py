@@ -29,22 +29,24 @@ def run_conditions(chosen: argparse.Namespace) -> int:
     """`singsym conditions MECHANISM`."""
     from singsym.conditions.conditions import conditions
     from singsym.conditions.named_lengths import named_lengths
+    from singsym.output.citations import printed_labels
 
     mechanism = read(chosen, redundant=True)
     if is_redundant(mechanism):
         return _redundant_conditions(chosen, mechanism)
     found = conditions(placed(mechanism, chosen.formulation))
-    lengths = named_lengths(mechanism, found.equation)
+    everything = chosen.expand or chosen.format == "json"
+    lengths = named_lengths(mechanism, found.equation, printed_labels(found, everything))
     if chosen.format == "json":
         from singsym.output.plain_data import conditions_data
 
         emit_data(conditions_data(mechanism.name, found, lengths))
     elif chosen.format == "latex":
-        from singsym.output.document import document
+        from singsym.output.document import document, fragment
         from singsym.output.latex import conditions_latex
 
         body = conditions_latex(found, mechanism, lengths, expand=chosen.expand)
-        print(document(body, mechanism.title or mechanism.name) if chosen.standalone else body)
+        print(document(body, mechanism.title or mechanism.name) if chosen.standalone else fragment(body))
     else:
         from singsym.output.conditions_page import conditions_page
 
@@ -61,10 +63,10 @@ def _redundant_conditions(chosen: argparse.Namespace, mechanism: Mechanism) -> i
     if chosen.format == "json":
         emit_data(redundant_page.redundant_data(mechanism.name, found))
     elif chosen.format == "latex":
-        from singsym.output.document import document
+        from singsym.output.document import document, fragment
 
         body = redundant_page.redundant_latex(mechanism, found, expand=chosen.expand)
-        print(document(body, mechanism.title or mechanism.name) if chosen.standalone else body)
+        print(document(body, mechanism.title or mechanism.name) if chosen.standalone else fragment(body))
     else:
         emit_page((mechanism.name, *redundant_page.redundant_page(found, expand=chosen.expand)))
     return 0
@@ -80,11 +82,11 @@ def run_classes(chosen: argparse.Namespace) -> int:
 
         emit_data(classes_data(found, chosen.n))
     elif chosen.format == "latex":
-        from singsym.output.document import document
+        from singsym.output.document import document, fragment
         from singsym.output.latex import classes_latex
 
         body = classes_latex(found, chosen.n)
-        print(document(body, "Classes of singular configurations") if chosen.standalone else body)
+        print(document(body, "Classes of singular configurations") if chosen.standalone else fragment(body))
     else:
         from singsym.output.text import classes_page
 
@@ -131,12 +133,12 @@ def _emit_classification(result: Classification, chosen: argparse.Namespace) -> 
 
         emit_data(classification_data(result))
     elif chosen.format == "latex":
-        from singsym.output.document import document
+        from singsym.output.document import document, fragment
         from singsym.output.latex import classification_latex
 
         body = classification_latex(result)
         title = result.mechanism.title or result.mechanism.name if result.mechanism else "Given equations"
-        print(document(body, title) if chosen.standalone else body)
+        print(document(body, title) if chosen.standalone else fragment(body))
     else:
         from singsym.output.text import classification_page
 
@@ -182,11 +184,11 @@ def _emit_solutions(mechanism: Mechanism, found: Sequence[Solution], chosen: arg
 
         emit_data(solution_data(mechanism.name, found, lengths))
     elif chosen.format == "latex":
-        from singsym.output.document import document
+        from singsym.output.document import document, fragment
         from singsym.output.latex import solution_latex
 
         body = solution_latex(found, lengths)
-        print(document(body, mechanism.title or mechanism.name) if chosen.standalone else body)
+        print(document(body, mechanism.title or mechanism.name) if chosen.standalone else fragment(body))
     else:
         from singsym.output.text import solution_page
 

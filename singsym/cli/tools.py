@@ -6,9 +6,15 @@ Source: singsym's own.
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from dataclasses import asdict
+from typing import TYPE_CHECKING
 
 from singsym.cli.screen import UserError, emit_data, emit_page, say
+
+if TYPE_CHECKING:
+    from singsym.elimination.engines.registry import EngineStatus
+    from singsym.output.page import Page
 
 _COMPLETION = """\
 {prelude}_singsym() {{
@@ -54,10 +60,21 @@ def run_engines(chosen: argparse.Namespace) -> int:
     if chosen.format == "json":
         emit_data([asdict(engine) for engine in found])
         return 0
-    from singsym.output.text import engines_page
-
-    emit_page(engines_page(found))
+    emit_page(_engines_page(found))
     return 0
+
+
+def _engines_page(engines: Sequence[EngineStatus]) -> Page:
+    """Which engines there are, what each is for, and how to get the missing ones."""
+    from singsym.output.page import Grid
+
+    rows = tuple(
+        (e.name, "yes" if e.found else "no", e.version, e.licence, e.used_for, e.path) for e in engines
+    )
+    grid = Grid(("engine", "there", "version", "licence", "used for", "path"), rows)
+    missing = [e for e in engines if not e.found]
+    names = ", ".join(e.name for e in missing)
+    return (grid, f"Missing: {names}. To get them: {missing[0].how_to_get}") if missing else (grid,)
 
 
 def run_cache(chosen: argparse.Namespace) -> int:

@@ -11,6 +11,7 @@ from functools import cached_property
 from math import prod
 from typing import TYPE_CHECKING
 
+from singsym.conditions.equilibrium import Equilibrium, equilibrium
 from singsym.conditions.factor import Factor
 from singsym.conditions.incidences.incidences import Incidences
 from singsym.conditions.incidences.quantities import Quantity
@@ -71,6 +72,7 @@ class Condition:
     units: the factors that were taken away, each with the reason.
     blocks: the blocks whose ranks add, with the constant, for (iii), (vi) and where a determinant is no way.
     bracket: of a determinant with too many terms, what it is of named lines: it holds where this is zero.
+    equilibrium: what (vi), and (4) where it is left as a rank, says of screws of the legs.
     """
 
     label: str
@@ -83,6 +85,7 @@ class Condition:
     comparison: Comparison | None = None
     blocks: RankBlocks | None = None
     bracket: Quantity | None = None
+    equilibrium: Equilibrium | None = None
 
     @property
     def factors(self) -> tuple[Factor, ...]:
@@ -98,6 +101,11 @@ class Condition:
     def polynomials(self) -> tuple[tuple[Polynomial, ...], ...]:
         """The alternatives as bare polynomials."""
         return tuple(tuple(f.polynomial for f in a) for a in self.alternatives or ())
+
+    @property
+    def is_nowhere(self) -> bool:
+        """Whether it holds in no configuration, by its factors."""
+        return self.alternatives == () and not self.everywhere
 
     def __repr__(self) -> str:
         return f"Condition({self.label}: {self.statement})"
@@ -246,6 +254,10 @@ class Conditions:
         factors = tuple(self.factor(p, k) for p, k in found.factors)
         if name == "L_O" and len(factors) == 1 and not factors[0].words and self.naming:
             factors = (replace(factors[0], said=self.incidences.output_at_rest),)
+            apart = self.rank_blocks(name)
+            return Condition(
+                label, _TYPES[label], plain, latex, blocks=apart, equilibrium=self._equilibrium(label)
+            )
         return Condition(
             label,
             _TYPES[label],
@@ -261,6 +273,10 @@ class Conditions:
         if not self.naming:
             return Factor(polynomial, multiplicity)
         return Factor.named(polynomial, multiplicity, self.names)
+
+    def _equilibrium(self, label: str) -> Equilibrium | None:
+        """The screws of (4), (vi) and (vii)."""
+        return equilibrium(self.equation, label == "vi") if label in ("4", "vi", "vii") else None
 
     def _determinant(self, name: str) -> FactoredDeterminant | None:
         """The determinant, in the smallest of the forms that the full and reduced matrix and the legs give.
@@ -303,6 +319,7 @@ class Conditions:
             tuple(tuple(self.factor(p) for p in a) for a in _minimal(found)) if decided else None,
             everywhere,
             blocks=apart,
+            equilibrium=self._equilibrium(label),
         )
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cached_property, partial
+from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
 from singsym.kinematics.couplings import coupling_rows
@@ -22,7 +22,7 @@ from singsym.kinematics.placement import (
     PlacedJoint,
     Placement,
 )
-from singsym.mechanism.model import JointRate, Mechanism, Output, PointVelocity, Space
+from singsym.mechanism.model import Joint, JointRate, Mechanism, Output, PointVelocity, Space
 from singsym.polynomials import Polynomial, PolynomialMatrix
 
 if TYPE_CHECKING:
@@ -209,11 +209,9 @@ def _output_rows(
     ring = placed.space.ring
     if isinstance(output, JointRate):
         return [(output.column, {output.column: ring.one})]
-    pointwise = isinstance(output, PointVelocity) and mechanism.space is not Space.SPHERICAL
-    find = partial(point_path, point=output.point) if pointwise else path
     twist = {
         column: tuple(e * sign for e in placed.screws[column])
-        for joint, sign in find(mechanism, output.link)
+        for joint, sign in output_path(mechanism, output)
         for column in joint.columns
     }
     names = _AXES[mechanism.space]
@@ -227,6 +225,15 @@ def _output_rows(
         (component, {column: screw[i] for column, screw in twist.items()})
         for component, i in zip(output.components, places, strict=True)
     ]
+
+
+def output_path(mechanism: Mechanism, output: Output) -> tuple[tuple[Joint, int], ...]:
+    """The joints from the ground to what an output moves, with the sign of each; none for a joint's rate."""
+    if isinstance(output, JointRate):
+        return ()
+    if isinstance(output, PointVelocity) and mechanism.space is not Space.SPHERICAL:
+        return tuple(point_path(mechanism, output.link, output.point))
+    return tuple(path(mechanism, output.link))
 
 
 def _arm(mechanism: Mechanism, placed: Placement, link: str, point: str) -> Coordinates:

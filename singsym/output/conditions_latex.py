@@ -11,7 +11,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from singsym.conditions.named_lengths import NamedLengths, in_decimals
-from singsym.output.citations import Citations, Entry, cited, is_short
+from singsym.output.citations import FEW, Citations, Entry, cited, is_short
 from singsym.output.document import escaped
 from singsym.polynomials.latex import polynomial_latex, symbol_latex
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from singsym.conditions.conditions import Condition
     from singsym.conditions.factor import Factor
 
-LONGEST = 24
+LONGEST = 12
 """Polynomials with more terms are cut, with the number of terms left out, unless all is asked for."""
 
 
@@ -32,7 +32,7 @@ def listed_latex(
     """
     listed = tuple(conditions)
     written = lengths or NamedLengths()
-    found = cited(listed)
+    found = cited(listed, expand)
     longest = sys.maxsize if expand else LONGEST
     parts = [_entry(entry, found, written, longest) for entry in found.entries]
     if values := written.occurring_in_factors(f for c in listed for f in c.all_factors):
@@ -51,16 +51,15 @@ def _entry(entry: Entry, found: Citations, written: NamedLengths, longest: int) 
     condition = entry.condition
     head = rf"\textbf{{({condition.label})}}\enspace ${condition.latex_statement}$ \quad ({condition.types})"
     if entry.same_as:
-        return f"{head}, as ({entry.same_as})."
+        off = rf" where ({entry.off}) does not hold; where it does, the ranks decide" if entry.off else ""
+        return f"{head}, as ({entry.same_as}){off}."
+    if entry.nowhere:
+        return f"{head}, in no configuration.{_units(condition, longest)}"
     if condition.everywhere:
         return f"{head}, in every configuration."
     if condition.bracket is not None:
         return rf"{head}: ${condition.bracket.latex} = 0$, {escaped(condition.bracket.words)}."
-    if condition.alternatives is None:
-        return f"{head}."
-    if not condition.alternatives:
-        return f"{head}, in no configuration.{_units(condition)}"
-    items = []
+    items = [rf"\item[if] {escaped(condition.equilibrium.words)}"] if condition.equilibrium else []
     for place, alternative in enumerate(entry.alternatives):
         said = [
             f"${_full(f, found, written, longest)} = 0${_words(f, written)}"
@@ -68,13 +67,22 @@ def _entry(entry: Entry, found: Citations, written: NamedLengths, longest: int) 
             if full
         ]
         said = said or [_cited([f for f, _ in alternative], found, written)]
-        items.append(rf"\item[{'or' if place else 'if'}] {said[0]}")
+        lead = "or" if place else "i.e." if condition.equilibrium else "if"
+        items.append(rf"\item[{lead}] {said[0]}")
+    if entry.left_out:
+        what = "further ways" if entry.alternatives else "sets of factors that vanish together, written out"
+        items.append(rf"\item[or] by {entry.left_out} {what}")
     items += [rf"\item[where] ${_full(f, found, written, longest)}${_words(f, written)}" for f in entry.below]
+    if not items:
+        return f"{head}."
     listed = "\n".join(items)
-    return f"{head}\n\\begin{{itemize}}\n{listed}\n\\end{{itemize}}{_units(condition)}"
+    return f"{head}\n\\begin{{itemize}}\n{listed}\n\\end{{itemize}}{_units(condition, longest)}"
 
 
-def _units(condition: Condition) -> str:
+def _units(condition: Condition, longest: int) -> str:
+    """The factors that were taken away; a few, unless all is asked for."""
+    if longest == LONGEST and len(condition.units) > FEW:
+        return f"\n{len(condition.units)} factors that vanish nowhere in the feasible set are left out."
     said = [f"${polynomial_latex(u.polynomial, 6)}$ ({escaped(u.reason)})" for u in condition.units]
     return f"\nFactors without a feasible zero are left out: {'; '.join(said)}." if said else ""
 

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from singsym.conditions.named_lengths import NamedLengths, values_text
-from singsym.output.citations import Citations, Entry, cited, is_short
+from singsym.output.citations import FEW, Citations, Entry, cited, is_short
 from singsym.output.page import Block, Page
 from singsym.output.text import matrix_page
 
@@ -18,11 +18,8 @@ if TYPE_CHECKING:
     from singsym.conditions.factor import Factor
     from singsym.kinematics.reduction import Reduction
 
-FEW = 2
-"""More factors than these that were taken away are counted, unless all is asked for."""
-
-MOST, HEAD = 8, 4
-"""Of polynomials with more terms than these the first few are printed, unless all is asked for."""
+MOST, HEAD, WIDEST = 8, 4, 120
+"""Of polynomials with more terms or letters than these the first few are printed, unless all is asked for."""
 
 
 def conditions_page(
@@ -46,14 +43,32 @@ def conditions_page(
 
 def _reduction_text(reduction: Reduction, expand: bool) -> str:
     """The passive velocities that were eliminated; expand: each with its pivot, constant ones too."""
-    lines = reduction.lines if expand else reduction.lines[-1:]
     head = "Reduction (section 4.2)"
-    if not expand:
-        plain = [column for step in reduction.record if step.pivot.is_constant for column in step.columns]
-        varied = [step for step in reduction.record if not step.pivot.is_constant]
-        head += f", by constant pivots: {', '.join(plain)}" if plain else ""
-        lines = (*(f"{', '.join(step.columns)}: pivot {step.reason}" for step in varied), *lines)
-    return "\n".join([head, *(f"  {line}" for line in lines)])
+    if expand:
+        return "\n".join([head, *(f"  {line}" for line in reduction.lines)])
+    return "\n".join([f"{head}, {'; '.join(reduction_lines(reduction))}", f"  {reduction.lines[-1]}"])
+
+
+def reduction_lines(reduction: Reduction) -> list[str]:
+    """The columns that went by constant pivots, and those that went by others."""
+    constant, varied = (
+        joined_columns(c for step in reduction.record if step.pivot.is_constant is kind for c in step.columns)
+        for kind in (True, False)
+    )
+    said = [f"by constant pivots {constant}"] if constant else []
+    return [*said, f"by others that vanish nowhere {varied}"] if varied else said
+
+
+def joined_columns(columns: Iterable[str]) -> str:
+    """Columns in their order, those of one joint together.
+
+    >>> joined_columns(("A.x", "A.y", "B"))
+    'A.xy, B'
+    """
+    joints: dict[str, list[str]] = {}
+    for joint, _, part in (column.partition(".") for column in columns):
+        joints.setdefault(joint, []).append(part)
+    return ", ".join(f"{joint}.{''.join(parts)}" if any(parts) else joint for joint, parts in joints.items())
 
 
 def conditions_text(
@@ -62,12 +77,13 @@ def conditions_text(
     """Conditions with what they amount to; a polynomial is printed once and cited after."""
     listed = tuple(conditions)
     written = lengths or NamedLengths()
-    found = cited(listed)
+    found = cited(listed, expand)
     lines = [line for entry in found.entries for line in _entry(entry, found, written, expand)]
     if values := written.occurring_in_factors(f for c in listed for f in c.all_factors):
         lines.append(f"with {values_text(values)}")
-    if not expand and any(len(f.polynomial) > MOST for c in listed for f in c.all_factors):
-        lines.append("Polynomials are cut: --expand prints all of their terms")
+    text = "\n".join(lines)
+    if not expand and ("more terms" in text or any(entry.left_out for entry in found.entries)):
+        lines.append("What is cut here, --expand prints")
     return "\n".join(lines)
 
 
@@ -76,22 +92,27 @@ def _entry(entry: Entry, found: Citations, written: NamedLengths, expand: bool) 
     condition = entry.condition
     head = f"({condition.label}) {condition.statement}: {condition.types}"
     if entry.same_as:
-        return [f"{head}; as ({entry.same_as})"]
-    if condition.everywhere:
-        head += "; in every configuration"
-    elif condition.alternatives is not None and not condition.alternatives:
+        off = f" off ({entry.off}); on it the ranks decide" if entry.off else ""
+        return [f"{head}; as ({entry.same_as}){off}"]
+    if entry.nowhere:
         head += "; in no configuration"
+    elif condition.everywhere:
+        head += "; in every configuration"
     elif condition.bracket is not None:
         return [head, f"  if {condition.bracket.text} = 0  ({condition.bracket.words})"]
-    elif condition.alternatives is None and condition.comparison is None:
+    elif condition.alternatives is None and condition.comparison is None and condition.equilibrium is None:
         head += "; left as a rank: no determinant or list of minors is short enough"
     lines = [head]
+    if condition.equilibrium and not (entry.nowhere or condition.everywhere):
+        lines.append(f"  if {condition.equilibrium.words}{'; that is,' if entry.alternatives else ''}")
     for place, alternative in enumerate(entry.alternatives):
         said = [
             f"{_full(f, found, written, expand)} = 0{_words(f, written)}" for f, full in alternative if full
         ]
         said = said or [_cited([f for f, _ in alternative], found, written)]
         lines.append(f"  {'or' if place else 'if'} {said[0]}")
+    if entry.left_out:
+        lines.append(f"  {_more(entry)}")
     below = [f for f in entry.below if expand or not f.words]
     lines += [f"  where {_full(f, found, written, expand)}{_words(f, written)}" for f in below]
     if expand or len(condition.units) <= FEW:
@@ -100,12 +121,23 @@ def _entry(entry: Entry, found: Citations, written: NamedLengths, expand: bool) 
     return [*lines, f"  without {left_out}: --expand prints them"]
 
 
+def _more(entry: Entry) -> str:
+    """How many alternatives are not printed."""
+    number = entry.left_out
+    if entry.alternatives:
+        return f"or {number} more way{'' if number == 1 else 's'}, of several factors each"
+    return f"written out: {number} set{'' if number == 1 else 's'} of factors that vanish together"
+
+
 def _full(factor: Factor, found: Citations, written: NamedLengths, expand: bool) -> str:
     """A factor with its polynomial, after the name that it is cited by."""
     number = found.numbers.get(factor.polynomial)
     shown = written.factor(factor)
-    longest = None if expand or len(shown.polynomial) <= MOST else HEAD
-    return f"{f'f{number} = ' if number else ''}{shown.text(longest)}"
+    text = shown.text()
+    if not expand and (len(shown.polynomial) > MOST or len(text) > WIDEST):
+        shorter = (shown.text(terms) for terms in range(HEAD, 0, -1))
+        text = next((cut for cut in shorter if len(cut) <= WIDEST), shown.text(1))
+    return f"{f'f{number} = ' if number else ''}{text}"
 
 
 def _words(factor: Factor, written: NamedLengths) -> str:

@@ -1,21 +1,19 @@
-"""A LaTeX document around the LaTeX of a result, and text that is safe in it.
+"""A LaTeX document around the LaTeX of a result, a fragment for one's own, and text that is safe in them.
 
-Source: singsym's own; amsmath and booktabs.
+Source: singsym's own; amsmath, array and booktabs.
 """
 
 from __future__ import annotations
 
-import re
+PACKAGES = "amsmath,array,booktabs"
+"""What the LaTeX of a result needs."""
 
 _PREAMBLE = r"""\documentclass[a4paper,10pt]{article}
 \usepackage[T1]{fontenc}
 \usepackage[utf8]{inputenc}
 \usepackage{lmodern}
 \usepackage[margin=22mm]{geometry}
-\usepackage{amsmath,amssymb,array,booktabs,graphicx}
-\newsavebox{\fitbox}
-\newcommand{\fitted}[1]{\par\medskip\noindent\sbox{\fitbox}{#1}%
-  \ifdim\wd\fitbox>\linewidth\resizebox{\linewidth}{!}{\usebox{\fitbox}}\else\hfil\usebox{\fitbox}\fi\par\medskip}
+\usepackage{%s}
 \relpenalty=50 \binoppenalty=100 \emergencystretch=3em
 \lineskiplimit=1pt \lineskip=2pt
 \setlength{\parindent}{0pt} \setlength{\parskip}{3pt plus 1pt}
@@ -60,9 +58,16 @@ def escaped(text: str) -> str:
 def document(body: str, title: str) -> str:
     """A whole document around the LaTeX of a result."""
     head = f"{{\\LARGE\\bfseries {escaped(title)}\\par}}\\bigskip"
-    return f"{_PREAMBLE}\\begin{{document}}\n{head}\n\n{_without_fit(body)}\n\\end{{document}}"
+    preamble = _PREAMBLE.replace("%s", PACKAGES)
+    return f"{preamble}\\begin{{document}}\n{head}\n\n{body}\n\\end{{document}}"
 
 
-def _without_fit(body: str) -> str:
-    """The body with matrices scaled to the line, by a macro of the document's preamble."""
-    return re.sub(r"\\\[(\\begin\{array\}.*?\\end\{array\})\\\]", r"\\fitted{$\1$}", body, flags=re.DOTALL)
+def fragment(body: str) -> str:
+    """The LaTeX of a result for \\input in a document of one's own; its first line names the packages.
+
+    >>> print(fragment("$x$").splitlines()[0])
+    % For \\input; the document needs \\usepackage{amsmath,array,booktabs}
+    """
+    # long formulas would stick out of justified lines, and wide tables out of narrow pages
+    setting = r"\begingroup\raggedright\emergencystretch=3em\relpenalty=50\binoppenalty=100\tabcolsep=3pt"
+    return f"% For \\input; the document needs \\usepackage{{{PACKAGES}}}\n{setting}\n{body}\n\\par\\endgroup"

@@ -6,13 +6,25 @@ set in the line, where TeX breaks them after operators.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from singsym.conditions.named_lengths import NamedLengths
 from singsym.output.conditions_latex import listed_latex, values_latex
+from singsym.output.conditions_page import reduction_lines
 from singsym.output.document import escaped
-from singsym.output.pieces import Group, extent_of, filled, grouped, loop_equations, moving, varying
+from singsym.output.pieces import (
+    alike,
+    extent_of,
+    filled,
+    grouped,
+    loop_equations,
+    moving,
+    named_polynomials,
+    varying,
+)
+from singsym.output.sheet.matrix import matrix_latex, reduced_latex
+from singsym.output.sheet.steps import locus_latex, named_latex, steps_latex, where_latex
 from singsym.polynomials.latex import polynomial_latex, symbol_latex
 
 if TYPE_CHECKING:
@@ -20,19 +32,16 @@ if TYPE_CHECKING:
     from singsym.classes.solve import Solution
     from singsym.classes.taxonomy.types import Table
     from singsym.conditions.conditions import Conditions
-    from singsym.kinematics.velocity import Column, VelocityEquation
+    from singsym.kinematics.velocity import VelocityEquation
     from singsym.mechanism.model import Mechanism
-    from singsym.polynomials import Polynomial, PolynomialMatrix
-
-WIDEST = 30
-"""A matrix as wide as this many terms side by side fills the line; entries that do not fit get a name."""
+    from singsym.polynomials import Polynomial
 
 # -- the mechanism -----------------------------------------------------------------------------------
 
 
 def mechanism_latex(mechanism: Mechanism, equation: VelocityEquation) -> str:
     """What the mechanism is, its loop equations and L."""
-    return "\n\n".join([_description(mechanism), *_loops(equation), *_velocity(equation)])
+    return "\n\n".join([_description(mechanism), *_loops(equation), *_velocity(equation, mechanism)])
 
 
 def _description(mechanism: Mechanism) -> str:
@@ -65,55 +74,11 @@ def _loops(equation: VelocityEquation) -> list[str]:
     return lines
 
 
-def _velocity(equation: VelocityEquation) -> list[str]:
+def _velocity(equation: VelocityEquation, mechanism: Mechanism | None, expand: bool = False) -> list[str]:
     text = (
         f"Velocity equation $L\\,m = 0$ with $N = {equation.N}$, $n = {equation.n}$; inputs are underlined."
     )
-    return [r"\section*{Velocity equation}", text, *matrix_latex("L", equation.L, equation.columns)]
-
-
-def matrix_latex(name: str, matrix: PolynomialMatrix, columns: Sequence[Column]) -> list[str]:
-    """A matrix with its columns' labels; long entries are named in it and follow it.
-
-    >>> from singsym.kinematics.velocity import velocity_equation
-    >>> from singsym.mechanism import load
-    >>> equation = velocity_equation(load("fourbar"))
-    >>> print(matrix_latex("L", equation.L, equation.columns)[0].splitlines()[2])
-     & \\mathrm{T.D} & \\underline{\\mathrm{A}} & \\mathrm{B} & \\mathrm{C} & \\mathrm{D} \\\\
-    """
-    limit = _longest_entry(matrix)
-    named: list[str] = []
-
-    def cell(i: int, j: int, entry: Polynomial) -> str:
-        if not entry:
-            return r"\cdot"
-        if len(entry) <= limit:
-            return polynomial_latex(entry)
-        symbol = rf"\ell_{{{i + 1},{j + 1}}}"
-        named.append(f"${symbol} = {polynomial_latex(entry)}$")
-        return symbol
-
-    label = {"input": r"\underline{\mathrm{%s}}"}
-    heads = [label.get(c.role, r"\mathrm{%s}") % c.label.replace("_", r"\_") for c in columns]
-    rows = [" & ".join(cell(i, j, e) for j, e in enumerate(row)) for i, row in enumerate(matrix.rows)]
-    body = " \\\\\n".join(f" & {row}" for row in rows)
-    array = (
-        f"\\[\\begin{{array}}{{r|{'c' * matrix.width}}}\n"
-        f"{name}\n & {' & '.join(heads)} \\\\\n\\hline\n\\rule{{0pt}}{{2.6ex}}{body}\n\\end{{array}}\\]"
-    )
-    return [array, *(["with " + ",\n".join(named) + "."] if named else [])]
-
-
-def _longest_entry(matrix: PolynomialMatrix) -> int:
-    """How many terms an entry may have so that the matrix fits the line: at least one."""
-
-    def width(limit: int) -> int:
-        columns = zip(*matrix.rows, strict=True)
-        return sum(
-            max((len(e) * max(1, e.total_degree) for e in c if len(e) <= limit), default=1) for c in columns
-        )
-
-    return next((limit for limit in (6, 4, 3, 2) if width(limit) <= WIDEST), 1)
+    return [r"\section*{Velocity equation}", text, *matrix_latex(equation, mechanism, expand=expand)]
 
 
 # -- conditions --------------------------------------------------------------------------------------
@@ -132,24 +97,30 @@ def conditions_latex(
     """
     equation, reduction = conditions.equation, conditions.reduction
     parts = [_description(mechanism)] if mechanism is not None else []
-    parts += [*_loops(equation), *_velocity(equation)]
-    parts += [r"\section*{Reduction}", *reduction_latex(conditions)]
+    parts += [*_loops(equation), *_velocity(equation, mechanism, expand)]
+    parts += [r"\section*{Reduction}", *reduction_latex(conditions, expand=expand)]
     if reduction.record:
-        parts += matrix_latex("L", reduction.equation.L, reduction.equation.columns)
+        parts += reduced_latex(conditions, mechanism, expand=expand)
     parts += [r"\section*{Conditions}", listed_latex(conditions, lengths, expand=expand)]
     return "\n\n".join(parts)
 
 
-def reduction_latex(conditions: Conditions) -> list[str]:
-    """The record of the reduction: which passive velocities went, and why that is allowed."""
+def reduction_latex(conditions: Conditions, *, expand: bool = False) -> list[str]:
+    """The record of the reduction: which passive velocities went, and why that is allowed.
+
+    expand: each by itself, with its pivot.
+    """
     reduction = conditions.reduction
     items = []
-    for step in reduction.record:
-        which = ", ".join(step.columns)
-        rows = escaped(", ".join(step.rows))
-        by = f"by row {rows}, pivot" if len(step.rows) == 1 else f"from rows {rows}, sum of squares"
-        reason = "" if step.pivot.is_constant else f": {escaped(step.reason)}"
-        items.append(f"\\item {escaped(which)} {by} ${polynomial_latex(step.pivot, 8)}${reason}")
+    if expand:
+        for step in reduction.record:
+            which = ", ".join(step.columns)
+            rows = escaped(", ".join(step.rows))
+            by = f"by row {rows}, pivot" if len(step.rows) == 1 else f"from rows {rows}, sum of squares"
+            reason = "" if step.pivot.is_constant else f": {escaped(step.reason)}"
+            items.append(f"\\item {escaped(which)} {by} ${polynomial_latex(step.pivot, 8)}${reason}")
+    else:
+        items = [f"\\item {escaped(line)}" for line in reduction_lines(reduction)]
     size = r" \times ".join(map(str, reduction.equation.matrix.shape))
     last = f"Every rank is that of the reduced matrix (${size}$) plus {reduction.constant}."
     if not items:
@@ -183,15 +154,19 @@ def classification_latex(result: Classification) -> str:
     from singsym.conditions.conditions import conditions
 
     found = conditions(result.equation, result.reduction)
+    names = named_polynomials(result)
     parts = [conditions_latex(found, result.mechanism, result.lengths)]
     if result.configuration_space:
         parts += [r"\section*{Pieces of the configuration space}", _space(result.configuration_space)]
     if result.loci:
-        parts += [r"\section*{Singularity set}", _loci(result.loci, result.lengths)]
+        parts += [r"\section*{Singularity set}", _loci(result.loci, result.lengths, names)]
     parts += [r"\section*{Classes}", _itemized(result.summary), *_class_table(result)]
     if result.parameters_note:
         parts.append(f"Here {escaped(result.parameters_note)}.")
-    parts += [_class(c, result) for c in result.classes if c.verdict.is_yes]
+    parts += [_class(c, result, names) for c in result.classes if c.verdict.is_yes]
+    parts += [r"\section*{Steps}", steps_latex(result)]
+    if names:
+        parts.append(named_latex(names))
     questions = [f"{what}: {reason}" for what, reason in gathered(result.open_questions())]
     for head, lines in (("Remarks", result.notes()), ("Open", questions)):
         if lines:
@@ -211,12 +186,12 @@ def _space(pieces: Sequence[SpacePiece]) -> str:
     return _table(("l", "l", wide), ("dimension", "smooth", "remark"), rows)
 
 
-def _loci(loci: Sequence[Locus], lengths: NamedLengths) -> str:
+def _loci(loci: Sequence[Locus], lengths: NamedLengths, names: Mapping[Polynomial, str]) -> str:
     from singsym.classes.result import counts
 
     headers = ("", "", "locus", "dimension", "points", "components")
     rows = [
-        (str(i), f"({x.condition})", _locus_name(x, lengths), str(x.extent), *counts(x))
+        (str(i), f"({x.condition})", locus_latex(x, lengths, names), str(x.extent), *counts(x))
         for i, x in enumerate(loci, 1)
     ]
     wide = r">{\raggedright\arraybackslash}p{.5\linewidth}"
@@ -235,22 +210,18 @@ def _table(layout: Sequence[str], headers: Sequence[str], rows: Sequence[Sequenc
     )
 
 
-def _locus_name(locus: Locus, lengths: NamedLengths) -> str:
-    shown = f"${polynomial_latex(lengths.shown(locus.factor), 8)} = 0$"
-    return escaped(locus.words) if locus.words else shown
-
-
 def _class_table(result: Classification) -> list[str]:
     """The classes that occur or are open, and those that are empty on a line."""
     from singsym.classes.result import counts
     from singsym.classes.summary import empty_text, known_by, shown_classes
 
     headers = ("class", "types", "there?", "known by", "dimension", "points", "components", "step")
+    some_open = any(c.verdict.is_undecided for c in shown_classes(result))
     rows = [
         (
             str(c.singularity_class.number),
             str(c.types),
-            str(c.verdict.answer),
+            str(c.verdict.answer) if some_open else "",
             known_by(result, c.singularity_class.number),
             extent_of(c),
             *counts(c),
@@ -265,28 +236,20 @@ def _class_table(result: Classification) -> list[str]:
     return [part for part in parts if part]
 
 
-def _class(result: ClassResult, whole: Classification) -> str:
+def _class(result: ClassResult, whole: Classification, names: Mapping[Polynomial, str]) -> str:
     """A class that occurs: equations of its pieces, and one configuration."""
     head = f"\\subsection*{{Class {result.singularity_class.number}\\quad ({result.types})}}"
     items = []
     for group in grouped(result.pieces, whole.loci, whole.lengths):
         counts = f", {group.points} points" if group.points is not None else ""
-        items.append(rf"\item {_where(group)}: dimension {group.extent}{counts}")
+        items.append(rf"\item {where_latex(group, names)}: dimension {group.extent}{counts}")
     items += [
-        rf"\item perhaps also {_where(group)}" for group in grouped(result.unsure, whole.loci, whole.lengths)
+        rf"\item perhaps also {where_latex(group, names)}"
+        for group in grouped(result.unsure, whole.loci, whole.lengths)
     ]
     listed = "\\begin{itemize}\n" + "\n".join(items) + "\n\\end{itemize}"
     shown = [f"For instance {_configuration(w, whole.equation)}." for w in result.witnesses[:1]]
     return "\n".join([head, listed, *shown])
-
-
-def _where(group: Group) -> str:
-    """What vanishes on the pieces of a group."""
-    said = [
-        escaped(w) if w else f"${polynomial_latex(p, 8)} = 0$"
-        for p, w in zip(group.path, group.words, strict=True)
-    ]
-    return r" \emph{and} ".join(said) or "everywhere"
 
 
 def _equations(path: Sequence[Polynomial]) -> str:
@@ -326,9 +289,12 @@ def solution_latex(solutions: Sequence[Solution], lengths: NamedLengths | None =
         head = rf"\section*{{Condition ({solution.condition.label})}}"
         parts += [head, f"${solution.condition.latex_statement}$ ({solution.condition.types})."]
         items = []
-        for piece in solution.pieces:
-            counts = f", {piece.points} points" if piece.points is not None else ""
-            shown = [f" For instance {_configuration(w, solution.equation)}." for w in piece.witnesses[:1]]
+        for piece, *rest in alike(solution.pieces):
+            many = 1 + len(rest)
+            counts = f", {many} parts" if rest else ""
+            counts += f", {many * piece.points} points" if piece.points is not None else ""
+            witnesses = [w for p in (piece, *rest) for w in p.witnesses[:1]][:2]
+            shown = [f" For instance {_configuration(w, solution.equation)}." for w in witnesses]
             where = _equations([written.shown(p) for p in piece.path])
             items.append(rf"\item ${where}$, dimension {piece.extent}{counts}." + "".join(shown))
         if items:

@@ -5,14 +5,17 @@ Source: Table 2 of Zlatanov, Fenton, Benhabib (1998) lists a class by its condit
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from singsym.polynomials import Equations
+from singsym.output.citations import SHORT
+from singsym.polynomials import Equations, Polynomial
 
 if TYPE_CHECKING:
-    from singsym.classes.result import ClassResult, Locus, Piece
+    from singsym.classes.result import Classification, ClassResult, Locus, Piece
+    from singsym.classes.solve import SolutionPiece
     from singsym.conditions.named_lengths import NamedLengths
     from singsym.kinematics.velocity import VelocityEquation
     from singsym.varieties.real.dimension.extent import Extent
@@ -26,6 +29,13 @@ class Group:
     words: tuple[str, ...]
     extent: Extent
     points: int | None
+
+    def text(self, names: Mapping[Polynomial, str]) -> str:
+        """What vanishes on the pieces; names: of the polynomials that have one."""
+        said = [
+            w or f"{names.get(p) or p.short_text(6)} = 0" for p, w in zip(self.path, self.words, strict=True)
+        ]
+        return " and ".join(said) or "everywhere"
 
 
 def grouped(
@@ -51,6 +61,27 @@ def grouped(
             )
         )
     return tuple(groups)
+
+
+def alike(pieces: Iterable[SolutionPiece]) -> tuple[tuple[SolutionPiece, ...], ...]:
+    """Pieces of a solution that would be printed in the same words, together."""
+    found: dict[object, list[SolutionPiece]] = {}
+    for piece in pieces:
+        known = piece.verdict.answer, piece.verdict.certainty, piece.is_counted
+        found.setdefault((piece.path, piece.extent, piece.points, known), []).append(piece)
+    return tuple(map(tuple, found.values()))
+
+
+def named_polynomials(result: Classification) -> dict[Polynomial, str]:
+    """Names of the long polynomials that would be printed more than once, those of the loci first."""
+    counts: Counter[Polynomial] = Counter()
+    for locus in result.loci:
+        counts[result.lengths.shown(locus.factor)] += not locus.words
+    for found in result.classes:
+        for group in grouped((*found.pieces, *found.unsure), result.loci, result.lengths):
+            counts.update(p for p, words in zip(group.path, group.words, strict=True) if not words)
+    often = (p for p, count in counts.items() if count > 1 and len(str(p)) > SHORT)
+    return {polynomial: f"f{i}" for i, polynomial in enumerate(often, 1)}
 
 
 def loop_equations(equation: VelocityEquation) -> Equations:

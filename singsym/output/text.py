@@ -12,7 +12,16 @@ from typing import TYPE_CHECKING
 from singsym.effort.verdict import described
 from singsym.mechanism.choices import is_redundant
 from singsym.output.page import Block, Grid, Page
-from singsym.output.pieces import Group, extent_of, filled, grouped, loop_equations, moving, varying
+from singsym.output.pieces import (
+    alike,
+    extent_of,
+    filled,
+    grouped,
+    loop_equations,
+    moving,
+    named_polynomials,
+    varying,
+)
 
 if TYPE_CHECKING:
     from singsym.classes.configuration.at import Analysis
@@ -21,11 +30,10 @@ if TYPE_CHECKING:
     from singsym.classes.solve import Solution
     from singsym.classes.taxonomy.types import SingularityType, Table
     from singsym.conditions.named_lengths import NamedLengths
-    from singsym.elimination.engines.registry import EngineStatus
     from singsym.kinematics.mobility import Mobility
     from singsym.kinematics.velocity import VelocityEquation
     from singsym.mechanism.model import Coupling, Joint, Mechanism, Output, Parameter
-    from singsym.polynomials import PolynomialMatrix
+    from singsym.polynomials import Polynomial, PolynomialMatrix
 
 LONGEST = 12
 """Polynomials with more terms are cut, with the number of terms left out."""
@@ -176,17 +184,16 @@ def classification_page(result: Classification) -> Page:
     head = "; ".join(filter(None, (sizes, result.parameters_note, result.lengths_note)))
     pieces = result.configuration_space
     space = tuple(_space_row(i if len(pieces) > 1 else 0, piece) for i, piece in enumerate(pieces, 1))
-    loci = tuple(_locus_row(i, locus, result.lengths) for i, locus in enumerate(result.loci, 1))
+    names = named_polynomials(result)
+    loci = tuple(_locus_row(i, locus, result.lengths, names) for i, locus in enumerate(result.loci, 1))
     blocks: list[Block] = ["\n".join(result.summary), head]
     if shown:
-        title = (
-            "The classes that occur"
-            if all(c.verdict.is_yes for c in shown)
-            else "Classes that occur or are open"
-        )
-        blocks.append(_lean(_CLASSES, tuple(_class_row(c, result) for c in shown), title))
+        some_open = any(c.verdict.is_undecided for c in shown)
+        title = "Classes that occur or are open" if some_open else "The classes that occur"
+        blocks.append(_lean(_CLASSES, tuple(_class_row(c, result, some_open) for c in shown), title))
     blocks += filter(None, [empty_text(result)])
-    blocks += [_class_text(found, result) for found in shown if found.verdict.is_yes]
+    blocks += [_class_text(found, result, names) for found in shown if found.verdict.is_yes]
+    blocks += ["\n".join(f"{name} = {p.short_text(6)}" for p, name in names.items())] if names else []
     if types := {kind for found in shown for kind in found.types}:
         blocks.append(types_text(sorted(types, key=lambda kind: kind.value)))
     if loci:
@@ -216,15 +223,19 @@ def _space_row(number: int, piece: SpacePiece) -> tuple[str, ...]:
     return (str(number or ""), str(piece.extent), piece.smooth, piece.remark)
 
 
-def _locus_row(number: int, locus: Locus, lengths: NamedLengths) -> tuple[str, ...]:
+def _locus_row(
+    number: int, locus: Locus, lengths: NamedLengths, names: Mapping[Polynomial, str]
+) -> tuple[str, ...]:
     from singsym.classes.result import counts
 
-    shown = locus.words or lengths.shown(locus.factor).short_text(6)
+    factor = lengths.shown(locus.factor)
+    shown = locus.words or names.get(factor) or factor.short_text(6)
     points, components = counts(locus)
     return (str(number), f"({locus.condition})", shown, str(locus.extent), components, points)
 
 
-def _class_row(result: ClassResult, whole: Classification) -> tuple[str, ...]:
+def _class_row(result: ClassResult, whole: Classification, some_open: bool) -> tuple[str, ...]:
+    """some_open: whether it has to be said that the class occurs."""
     from singsym.classes.result import counts
     from singsym.classes.summary import known_by
 
@@ -232,7 +243,7 @@ def _class_row(result: ClassResult, whole: Classification) -> tuple[str, ...]:
     return (
         str(result.singularity_class.number),
         str(result.types),
-        str(verdict.answer),
+        str(verdict.answer) if some_open else "",
         known_by(whole, result.singularity_class.number),
         extent_of(result),
         *counts(result),
@@ -240,32 +251,26 @@ def _class_row(result: ClassResult, whole: Classification) -> tuple[str, ...]:
     )
 
 
-def _class_text(result: ClassResult, whole: Classification) -> str:
+def _class_text(result: ClassResult, whole: Classification, names: Mapping[Polynomial, str]) -> str:
     """A class that occurs: its pieces by what vanishes on the way, and one configuration."""
     lines = [f"{result.singularity_class.number} ({result.types})"]
     for group in grouped(result.pieces, whole.loci, whole.lengths):
         count = f", {group.points} points" if group.points is not None else ""
-        lines.append(f"  dimension {group.extent}{count}: {_where(group)}")
+        lines.append(f"  dimension {group.extent}{count}: {group.text(names)}")
     lines += [
-        f"  perhaps also: {_where(group)}" for group in grouped(result.unsure, whole.loci, whole.lengths)
+        f"  perhaps also: {group.text(names)}" for group in grouped(result.unsure, whole.loci, whole.lengths)
     ]
     lines += [f"  for instance {configuration_text(w, whole.equation)}" for w in result.witnesses[:1]]
     return "\n".join(lines)
 
 
-def _where(group: Group) -> str:
-    """What vanishes on the pieces of a group."""
-    said = [w or f"{p.short_text(6)} = 0" for p, w in zip(group.path, group.words, strict=True)]
-    return " and ".join(said) or "everywhere"
-
-
 def configuration_text(found: Configuration, equation: VelocityEquation, digits: int = 7) -> str:
-    """A certified configuration on one line: moving points, else the variables; joint values after them."""
+    """A certified configuration: moving points, else the variables; joint values on a line of their own."""
     named = points_text(moving(found.points, equation), digits) or values_text(
         varying(found.coordinates, equation), digits
     )
     joints = joints_text(found.joints, equation, digits)
-    return f"{named}; {joints}" if joints else named
+    return f"{named}\n    {joints}" if joints else named
 
 
 def points_text(points: Mapping[str, str | float], digits: int = 7) -> str:
@@ -318,24 +323,27 @@ def solution_page(name: str, solutions: Sequence[Solution], lengths: NamedLength
     for solution in solutions:
         condition = solution.condition
         head = f"({condition.label}) {condition.statement}: {condition.types}"
+        groups = alike(solution.pieces)
         rows = tuple(
             (
                 str(number),
                 ", ".join(f"{written.shown(p).short_text(6)} = 0" for p in piece.path) or "everywhere",
+                "" if many == 1 else str(many),
                 str(piece.extent),
-                _count(piece.points) if piece.is_counted else "?",
+                (_count(piece.points and many * piece.points) if piece.is_counted else "?"),
                 "?" if piece.verdict.is_undecided else described(piece.verdict.certainty),
             )
-            for number, piece in enumerate(solution.pieces, 1)
+            for number, (piece, *rest) in enumerate(groups, 1)
+            for many in (1 + len(rest),)
         )
         shown = [
             f"  {number}: for instance {configuration_text(piece.witnesses[0], solution.equation)}"
-            for number, piece in enumerate(solution.pieces, 1)
-            if piece.witnesses
+            for number, pieces in enumerate(groups, 1)
+            for piece in [p for p in pieces if p.witnesses][:2]
         ]
         if rows:
-            headers = ("", "where", "dimension", "points", "known by")
-            blocks.append(Grid(headers, rows, head))
+            headers = ("", "where", "parts", "dimension", "points", "known by")
+            blocks.append(_lean(headers, rows, head))
             if shown:
                 blocks.append("\n".join(shown))
         else:
@@ -401,20 +409,3 @@ def motion_text(motion: Motion) -> str:
         return f"{motion.type.name}: only velocities with {terms} = 0 are possible".replace("+ -", "- ")
     rates = ", ".join(f"{label} {rate:.5g}" for label, rate in motion.rates.items())
     return f"{motion.type.name}: {rates}"
-
-
-# -- engines -----------------------------------------------------------------------------------------
-
-
-def engines_page(status: Iterable[EngineStatus]) -> Page:
-    """Which engines there are, what each is for, and how to get the missing ones."""
-    engines = tuple(status)
-    rows = tuple(
-        (e.name, "yes" if e.found else "no", e.version, e.licence, e.used_for, e.path) for e in engines
-    )
-    missing = [e for e in engines if not e.found]
-    blocks: list[Block] = [Grid(("engine", "there", "version", "licence", "used for", "path"), rows)]
-    if missing:
-        names = ", ".join(e.name for e in missing)
-        blocks.append(f"Missing: {names}. To get them: {missing[0].how_to_get}")
-    return tuple(blocks)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Callable
 from fractions import Fraction
@@ -10,6 +11,7 @@ from singsym.classes.result import Classification
 from singsym.classes.taxonomy.types import SingularityType
 from singsym.elimination.ideal import Ideal
 from singsym.mechanism import Mechanism, load
+from singsym.output.sheet.steps import steps_latex
 
 Classified = Callable[[Mechanism], Classification]
 T = SingularityType
@@ -33,6 +35,19 @@ def test_no_increased_mobility(classified: Classified) -> None:
     result = classified(load("zlatanov-2dof"))
     assert all(c.verdict.is_no for c in result.classes if T.IIM in c.types)
     assert [space.smooth for space in result.configuration_space] == ["yes"]
+
+
+def test_the_steps_as_section_3_3_tells_them(classified: Classified) -> None:
+    """Step 1 finds nothing, step 2 eight configurations by two determinants; 3.5 makes them a class."""
+    body = steps_latex(classified(load("zlatanov-2dof")))
+    steps = dict(re.findall(r"\\item\[([\d.]+)\] (.*)", body))
+    assert list(steps) == ["1", "2", "3.2", "3.5", "4", "5", "6"]
+    assert steps["1"] == "IIM, condition (vi): none."
+    assert steps["2"].startswith("RPM, condition (iii): 8 configurations")
+    assert steps["2"].endswith(r"Where B, C, D collinear \emph{and} C, D, G collinear.")
+    assert "RI and RPM: none; RO and RPM: none; RI and RO and RPM: none" in steps["3.2"]
+    assert "(RPM, II, IO): 8 configurations" in steps["3.5"]
+    assert "(RI, RO, II, IO): 12 configurations" in steps["6"]
 
 
 def test_components_of_the_five_curves(classified: Classified) -> None:
