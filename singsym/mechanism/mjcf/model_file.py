@@ -211,10 +211,8 @@ class _Reader:
                     if leader < 0 or multiplier == 0
                     else "a joint that follows a curve"
                 )
-                expected, advice = (
-                    "one at a multiple of another",
-                    "leave a held joint out; of cams nothing is known",
-                )
+                expected = "one at a multiple of another"
+                advice = "leave a held joint out; write a cam in a TOML file, with the lift of its follower"
                 raise self._fault(f"equality {name}", found, expected, advice)
             yield Following(
                 self.joints[int(self.model.eq_obj1id[e])], self.joints[leader], multiplier, offset
