@@ -10,6 +10,7 @@ import os
 import signal
 import sys
 import threading
+import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -27,9 +28,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     {"n": 1, ...
     0
     """
+    started = time.monotonic()
     from singsym.cli.parser import parser
 
     chosen = parser().parse_args(arguments)
+    chosen.started = started
     if chosen.run is None:
         parser().print_help()
         return USAGE

@@ -49,7 +49,7 @@ R = TypeVar("R", bound=Result)
 ALONE = 3.0
 """So many seconds of work are done before processes are started, which takes a second each."""
 
-GRACE, SHARE_OVER = 2.0, 0.1
+GRACE, SHARE_OVER = 1.0, 0.1
 """So many seconds and so much of the time given may be overrun; then what does not heed it is ended."""
 
 Place = tuple[int, ...]
@@ -124,7 +124,7 @@ class Runner:
                 if grown:
                     progress.report(stage, done=len(results) + len(arrived), total=len(grown))
                 if not arrived:
-                    if results and budget.remaining() == 0.0:
+                    if budget.remaining() == 0.0:
                         work.call_off()
                     for job, result in work.finished():
                         if self.cache is not None and job.entry is not None:
