@@ -23,6 +23,7 @@ from singsym.classes.conclusions import (
     with_numbers,
 )
 from singsym.classes.configuration_space import configuration_space, smoothness
+from singsym.classes.findings import Told, tell_conditions
 from singsym.classes.realisation.certified_configuration import Names
 from singsym.classes.realisation.curve_components import Counted, CurveTask, count
 from singsym.classes.realisation.local_coordinates import local_coordinates
@@ -104,7 +105,7 @@ def classify(
     """
     border, limits = Border.of(mechanism, formulation), limits or Limits()
     with to(progress), running(workers, executor, limits.clock, cache) as runner:
-        found = classify_inside(mechanism, border.inside, runner, limits)
+        found = classify_inside(mechanism, border, runner, limits)
     return _whole(border.classification(found))
 
 
@@ -119,10 +120,10 @@ def classify_equation(
     progress: Sink | None = None,
 ) -> Classification:
     """The same for a velocity equation, such as one of the user's own; see `classify`."""
-    limits = limits or Limits()
+    border, limits = Border.around(equation), limits or Limits()
     with to(progress), running(workers, executor, limits.clock, cache) as runner:
-        found = classify_inside(mechanism, equation, runner, limits)
-    return _whole(Border.around(equation).classification(found))
+        found = classify_inside(mechanism, border, runner, limits)
+    return _whole(border.classification(found))
 
 
 def _whole(found: Classification) -> Classification:
@@ -132,11 +133,12 @@ def _whole(found: Classification) -> Classification:
 
 
 def classify_inside(
-    mechanism: Mechanism | None, equation: VelocityEquation, runner: Runner, limits: Limits
+    mechanism: Mechanism | None, border: Border, runner: Runner, limits: Limits
 ) -> Classification:
-    """The same in the unit of the equation, its configurations with more digits than are reported."""
+    """The same in the unit inside, its configurations with more digits than are reported."""
     started, ends = time.monotonic(), Ends.of(limits)
-    found = conditions(equation, reduce(equation))
+    found = conditions(border.inside, reduce(border.inside))
+    tell_conditions(found, border)
     return _Work(mechanism, found, runner, limits, ends).classification(started)
 
 
@@ -231,7 +233,8 @@ class _Work:
         limits = self.limits
         tasks = [self._task(f, f.stratum.defects.delta) for f in found]
         quick = [replace(task, seconds=limits.part(patience.FIRST_LOOK.work)) for task in tasks]
-        realised = self.runner.map(realise, quick, "real points", self.ends.pieces)
+        told = Told()
+        realised = self.runner.map(realise, quick, "real points", self.ends.pieces, told.take)
         self._look_again(tasks, realised, limits.part(patience.SECOND_LOOK.work), "real points, second look")
         self._look_again(tasks, realised, limits.seconds, "real points, at length", most=1)
         return realised

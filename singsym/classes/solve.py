@@ -244,7 +244,7 @@ def _solved(
         for condition in asked:
             if condition.alternatives is None or condition.everywhere:
                 left = replace(limits, clock=None if limits.clock is None else budget.time_left())
-                whole = whole or classify_inside(mechanism, border.inside, runner, left)
+                whole = whole or classify_inside(mechanism, border, runner, left)
                 solution = _from_classes(condition, whole)
             else:
                 solution = _closed(condition, found, runner, limits, budget)

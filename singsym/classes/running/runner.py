@@ -84,13 +84,25 @@ class Runner:
     interrupted: bool = False
 
     def map(
-        self, function: Callable[[T], R], tasks: Sequence[T], stage: str, budget: Budget | None = None
+        self,
+        function: Callable[[T], R],
+        tasks: Sequence[T],
+        stage: str,
+        budget: Budget | None = None,
+        seen: Callable[[R], None] | None = None,
     ) -> list[R]:
         """The results in the order of the tasks, whatever order they finish in.
 
         Those not finished when the budget was used up are what such a task says of itself.
+        seen: called with each result as it comes.
         """
-        return [result for _, result in self.grow(function, tasks, _nothing, stage, budget or Budget())]
+
+        def nothing(result: R) -> tuple[()]:
+            if seen is not None:
+                seen(result)
+            return ()
+
+        return [result for _, result in self.grow(function, tasks, nothing, stage, budget or Budget())]
 
     def grow(
         self,
@@ -184,10 +196,6 @@ def _first(futures: Collection[Future[Any]], seconds: float | None = None) -> se
             return done
         progress.beat()
     return set()
-
-
-def _nothing(result: object) -> tuple[()]:
-    return ()
 
 
 @dataclass(frozen=True)
