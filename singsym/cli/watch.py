@@ -9,7 +9,7 @@ import logging
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
 from typing import Literal
@@ -45,6 +45,12 @@ def talking(how: Talk) -> Iterator[None]:
         log.setLevel(level)
 
 
+def print_line(text: str) -> None:
+    """A line on stderr; where that takes none, as on a full disk, the work goes on without."""
+    with suppress(OSError):
+        print(text, file=sys.stderr, flush=True)
+
+
 @contextmanager
 def watched(note: Callable[[Event], None]) -> Iterator[Callable[[Event], None]]:
     """What notes an event and shows it in the way that was chosen."""
@@ -55,7 +61,7 @@ def watched(note: Callable[[Event], None]) -> Iterator[Callable[[Event], None]]:
         def show(event: Event) -> None:
             note(event)
             for line in lines.lines(event, time.monotonic()):
-                print(line, file=sys.stderr, flush=True)
+                print_line(line)
 
         yield show
     elif how == "usual" and sys.stderr.isatty():
