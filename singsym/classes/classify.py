@@ -181,6 +181,11 @@ class _Work:
         return RealSystem(space.ring, (), space.exclusions, space.positive, space.nonnegative)
 
     @cached_property
+    def told(self) -> Told:
+        """The classes of which points were reported."""
+        return Told()
+
+    @cached_property
     def names(self) -> Names:
         return Names(self.equation.space.points, self.equation.values)
 
@@ -233,8 +238,7 @@ class _Work:
         limits = self.limits
         tasks = [self._task(f, f.stratum.defects.delta) for f in found]
         quick = [replace(task, seconds=limits.part(patience.FIRST_LOOK.work)) for task in tasks]
-        told = Told()
-        realised = self.runner.map(realise, quick, "real points", self.ends.pieces, told.take)
+        realised = self.runner.map(realise, quick, "real points", self.ends.pieces, self.told.take)
         self._look_again(tasks, realised, limits.part(patience.SECOND_LOOK.work), "real points, second look")
         self._look_again(tasks, realised, limits.seconds, "real points, at length", most=1)
         return realised
@@ -287,7 +291,8 @@ class _Work:
             )
             for i in doubtful
         ]
-        for i, part in zip(doubtful, self.runner.map(realise, again, stage, self.ends.pieces), strict=True):
+        looks = self.runner.map(realise, again, stage, self.ends.pieces, self.told.take)
+        for i, part in zip(doubtful, looks, strict=True):
             realised[i] = merged(realised[i], part)
 
     def _singular_loci(self) -> SingularLoci | None:
