@@ -6,11 +6,12 @@ Source: Zlatanov, Fenton, Benhabib (1998), section 3: conditions (4), (5) and th
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from math import inf
+from typing import TypeVar
 
 from singsym.classes.conclusions import (
     MOST_FREEDOMS,
@@ -21,7 +22,8 @@ from singsym.classes.conclusions import (
     remarks_of,
     with_numbers,
 )
-from singsym.classes.configuration_space import configuration_space
+from singsym.classes.configuration_space import configuration_space, smoothness
+from singsym.classes.findings import Told, tell_conditions
 from singsym.classes.realisation.certified_configuration import Names
 from singsym.classes.realisation.curve_components import Counted, CurveTask, count
 from singsym.classes.realisation.local_coordinates import local_coordinates
@@ -38,7 +40,7 @@ from singsym.classes.unit_border import Border
 from singsym.conditions.conditions import Conditions, conditions
 from singsym.conditions.factor import Factor
 from singsym.effort import chance, patience
-from singsym.effort.budget import Budget
+from singsym.effort.budget import Budget, Undecided
 from singsym.effort.progress import Sink, to
 from singsym.effort.verdict import weakest
 from singsym.elimination import engines
@@ -49,8 +51,11 @@ from singsym.polynomials.unit_circles import Pair, unit_circles
 from singsym.varieties.real.dimension.extent import union
 from singsym.varieties.real.system import RealSystem
 
-SHARES = (0.5, 0.8, 1.0)
-"""So much of time and work is used up when the search, what is real of the strata, and everything ends."""
+T = TypeVar("T")
+
+SHARES = (0.45, 0.72, 0.9, 1.0)
+"""So much of time and work is used up when the search, what is real of the strata, all tasks, and what is
+concluded from them end."""
 
 
 @dataclass(frozen=True)
@@ -59,8 +64,8 @@ class Limits:
 
     seconds, memory_mb: of work (see `processor_time`) and memory for each task (a branch, a stratum, a
     curve); total: seconds of work of all tasks together; clock: seconds on the clock after which every task
-    ends, whatever else the machine did.  Half of these two is for the search for strata, and the most of the
-    rest for what is real of them.
+    ends, whatever else the machine did.  Almost half of these two is for the search for strata, and the most
+    of the rest for what is real of them.
     """
 
     seconds: float | None = 60.0
@@ -100,7 +105,7 @@ def classify(
     """
     border, limits = Border.of(mechanism, formulation), limits or Limits()
     with to(progress), running(workers, executor, limits.clock, cache) as runner:
-        found = classify_inside(mechanism, border.inside, runner, limits)
+        found = classify_inside(mechanism, border, runner, limits)
     return _whole(border.classification(found))
 
 
@@ -115,10 +120,10 @@ def classify_equation(
     progress: Sink | None = None,
 ) -> Classification:
     """The same for a velocity equation, such as one of the user's own; see `classify`."""
-    limits = limits or Limits()
+    border, limits = Border.around(equation), limits or Limits()
     with to(progress), running(workers, executor, limits.clock, cache) as runner:
-        found = classify_inside(mechanism, equation, runner, limits)
-    return _whole(Border.around(equation).classification(found))
+        found = classify_inside(mechanism, border, runner, limits)
+    return _whole(border.classification(found))
 
 
 def _whole(found: Classification) -> Classification:
@@ -128,20 +133,22 @@ def _whole(found: Classification) -> Classification:
 
 
 def classify_inside(
-    mechanism: Mechanism | None, equation: VelocityEquation, runner: Runner, limits: Limits
+    mechanism: Mechanism | None, border: Border, runner: Runner, limits: Limits
 ) -> Classification:
-    """The same in the unit of the equation, its configurations with more digits than are reported."""
+    """The same in the unit inside, its configurations with more digits than are reported."""
     started, ends = time.monotonic(), Ends.of(limits)
-    found = conditions(equation, reduce(equation))
+    found = conditions(border.inside, reduce(border.inside))
+    tell_conditions(found, border)
     return _Work(mechanism, found, runner, limits, ends).classification(started)
 
 
 @dataclass(frozen=True)
 class Ends:
-    """Budgets that end when the search, what is real of the strata, and everything has to end."""
+    """Budgets that end when the search, what is real of the strata, all tasks, and everything has to end."""
 
     search: Budget
     pieces: Budget
+    tasks: Budget
     all: Budget
 
     @classmethod
@@ -174,6 +181,11 @@ class _Work:
         return RealSystem(space.ring, (), space.exclusions, space.positive, space.nonnegative)
 
     @cached_property
+    def told(self) -> Told:
+        """The classes of which points were reported."""
+        return Told()
+
+    @cached_property
     def names(self) -> Names:
         return Names(self.equation.space.points, self.equation.values)
 
@@ -201,11 +213,13 @@ class _Work:
         pieces = self._with_components(explored.found, self._pieces(explored.found))
         loci = self._loci(explored, pieces)
         classes = classes_of(explored, pieces, self.equation.n, self._counting)
+        asked = partial(smoothness, self.mechanism, self.conditions, classes)
+        smooth = self._in_time(asked, ("undecided", "whether it is smooth was not found in time"))
         return Classification(
             self.mechanism,
             self.equation,
             self.conditions.reduction,
-            configuration_space(self.mechanism, self.conditions, pieces, classes),
+            configuration_space(self.mechanism, self.conditions, pieces, classes, smooth),
             loci,
             classes,
             tuple(name for name in engines.allowed() if engines.has(name)),
@@ -224,7 +238,7 @@ class _Work:
         limits = self.limits
         tasks = [self._task(f, f.stratum.defects.delta) for f in found]
         quick = [replace(task, seconds=limits.part(patience.FIRST_LOOK.work)) for task in tasks]
-        realised = self.runner.map(realise, quick, "real points", self.ends.pieces)
+        realised = self.runner.map(realise, quick, "real points", self.ends.pieces, self.told.take)
         self._look_again(tasks, realised, limits.part(patience.SECOND_LOOK.work), "real points, second look")
         self._look_again(tasks, realised, limits.seconds, "real points, at length", most=1)
         return realised
@@ -277,7 +291,8 @@ class _Work:
             )
             for i in doubtful
         ]
-        for i, part in zip(doubtful, self.runner.map(realise, again, stage, self.ends.pieces), strict=True):
+        looks = self.runner.map(realise, again, stage, self.ends.pieces, self.told.take)
+        for i, part in zip(doubtful, looks, strict=True):
             realised[i] = merged(realised[i], part)
 
     def _singular_loci(self) -> SingularLoci | None:
@@ -302,7 +317,7 @@ class _Work:
         factors = [(label, factor) for label in ("4", "5") for factor in self.conditions[label].factors]
         singular = union((p.extent for p in pieces if p.defects.types), explored.doubts_of_any)
         singular = replace(singular, bounded=weakest(singular.bounded, explored.certainty))
-        known = [largest_inside(factor, pieces) for _, factor in factors]
+        known = [self._in_time(partial(largest_inside, factor, pieces), None) for _, factor in factors]
         bounded = [
             self.equation.n > 1 and piece is not None and 0 < piece.extent.at_least == singular.dimension
             for piece in known
@@ -316,7 +331,7 @@ class _Work:
             )
             for i in left
         ]
-        whole = dict(zip(left, self.runner.map(realise, tasks, "loci", self.ends.all), strict=True))
+        whole = dict(zip(left, self.runner.map(realise, tasks, "loci", self.ends.tasks), strict=True))
         found = []
         for i, piece in enumerate(known):
             if piece is None or not bounded[i]:
@@ -332,6 +347,14 @@ class _Work:
             for i, (label, factor) in enumerate(factors)
         )
 
+    def _in_time(self, question: Callable[[], T], otherwise: T) -> T:
+        """The answer to what is asked in this process, or the other where everything has to end."""
+        try:
+            with self.ends.all:
+                return question()
+        except Undecided:
+            return otherwise
+
     def _whole(self, factor: Factor) -> Found:
         equations = (*self.equation.space.equations, factor.polynomial)
         return Found((factor.polynomial,), Stratum(equations, Defects(0, 0, 0, 0)))
@@ -346,7 +369,7 @@ class _Work:
         """The connected components of curves, closed up."""
         limits = self.limits
         limited = [replace(t, seconds=limits.seconds, memory_mb=limits.memory_mb) for t in tasks]
-        return self.runner.map(count, limited, "curves", self.ends.all)
+        return self.runner.map(count, limited, "curves", self.ends.tasks)
 
     # -- classes -------------------------------------------------------------------------------------
 
@@ -367,7 +390,7 @@ class _Work:
         parts = [with_numbers(part, counted.get(i)) for i, part in enumerate(realised)]
         points = [i for i in own if realised[i].pieces[0].dimension == 0]
         beside = [self._beside(found[i], [p for k in curves for p in realised[k].pieces]) for i in points]
-        counted_points = self.runner.map(realise, beside, "points beside curves", self.ends.all)
+        counted_points = self.runner.map(realise, beside, "points beside curves", self.ends.tasks)
         for i, part in zip(points, counted_points, strict=True):
             numbers = [p.points for p in part.pieces if p.verdict.is_yes]
             number = (

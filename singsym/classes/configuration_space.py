@@ -43,13 +43,16 @@ def configuration_space(
     conditions: Conditions,
     pieces: Sequence[Piece],
     classes: Sequence[ClassResult],
+    whole: tuple[str, str],
 ) -> tuple[SpacePiece, ...]:
     """The pieces of the configuration space, those of singular configurations alone included.
+
+    whole: what `smoothness` says of it.
 
     Without regular configurations, the classes of the largest dimension are the pieces.  Where a class may be
     as large, a last piece, undecided, says so.
     """
-    smooth, why = _is_smooth(mechanism, conditions, classes)
+    smooth, why = whole
     kept = ", ".join(mechanism.translating) if mechanism else ""
     usual = conditions.equation.n + conditions.equation.space.varying
     regular = [p for p in pieces if not p.path and not p.verdict.is_no]
@@ -94,7 +97,7 @@ def _perhaps(results: Sequence[ClassResult], smooth: str) -> SpacePiece:
     return SpacePiece(Extent(open=verdict.reason), smooth, Defects(0, 0, 0, 0), verdict, (), remark)
 
 
-def _is_smooth(
+def smoothness(
     mechanism: Mechanism | None, conditions: Conditions, classes: Sequence[ClassResult]
 ) -> tuple[str, str]:
     """Whether the whole space is smooth, and what is to be said of it."""

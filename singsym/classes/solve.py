@@ -243,7 +243,8 @@ def _solved(
         results = []
         for condition in asked:
             if condition.alternatives is None or condition.everywhere:
-                whole = whole or classify_inside(mechanism, border.inside, runner, limits)
+                left = replace(limits, clock=None if limits.clock is None else budget.time_left())
+                whole = whole or classify_inside(mechanism, border, runner, left)
                 solution = _from_classes(condition, whole)
             else:
                 solution = _closed(condition, found, runner, limits, budget)

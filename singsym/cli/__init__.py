@@ -1,7 +1,7 @@
 """The command `singsym`: every artefact on stdout, everything else on stderr.
 
 Source: singsym's own; exit codes: 0 decided, 3 a class, a dimension or a number open, 2 usage or bad
-input, 130 interrupted, 143 terminated.
+input, 74 results that cannot be written (EX_IOERR of sysexits.h), 130 interrupted, 143 terminated.
 """
 
 from __future__ import annotations
@@ -11,14 +11,16 @@ import os
 import signal
 import sys
 import threading
+import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from io import TextIOWrapper
 from types import FrameType
 
 from singsym.cli.screen import UserError, say
 
-USAGE, INTERRUPTED, BROKEN_PIPE = 2, 130, 141
+USAGE, NOT_WRITTEN, INTERRUPTED, BROKEN_PIPE = 2, 74, 130, 141
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -28,9 +30,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     {"n": 1, ...
     0
     """
+    started = time.monotonic()
     from singsym.cli.parser import parser
 
+    if _opened():
+        say("singsym: standard output is closed, there is nowhere to print to")
+        return NOT_WRITTEN
     chosen = parser().parse_args(arguments)
+    chosen.started = started
     if chosen.run is None:
         parser().print_help()
         return USAGE
@@ -46,15 +53,39 @@ def main(arguments: Sequence[str] | None = None) -> int:
         say(f"singsym {chosen.command}: {error}")
         return USAGE
     except BrokenPipeError:
-        # the reader of the pipe has gone; the flush at exit would complain again
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _forget_output()
         return BROKEN_PIPE
+    except OSError as error:
+        _forget_output()
+        place = error.filename or "standard output"
+        say(f"singsym {chosen.command}: {place} cannot be used: {error.strerror or error}")
+        return NOT_WRITTEN
     except KeyboardInterrupt as interrupt:
         during = f" during {interrupt}" if str(interrupt) else ""
         say(f"singsym {chosen.command}: interrupted{during}{chosen.on_interrupt}")
         sys.stdout.flush()
         return ended.code
     return code
+
+
+def _opened() -> bool:
+    """Open streams that are closed on nothing, so that no file gets their numbers; whether stdout was.
+
+    Signs that their encoding has not are written as escapes.
+    """
+    closed = sys.stdout is None
+    for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
+        stream = getattr(sys, name)
+        if stream is None:
+            setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_RDWR), mode, encoding="utf-8"))
+        elif mode == "w" and isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
+    return closed
+
+
+def _forget_output() -> None:
+    """Nobody reads it, or it has no place: the flush at exit would complain again."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 @dataclass

@@ -6,6 +6,7 @@ Source: pages are those of `singsym.output.html.gallery` and `singsym.output.htm
 from __future__ import annotations
 
 import argparse
+import time
 from difflib import get_close_matches
 from pathlib import Path
 
@@ -26,7 +27,7 @@ def run_gallery(chosen: argparse.Namespace) -> int:
     folder = Path(chosen.output)
     cards = []
     for place, name in enumerate(names, 1):
-        chosen.mechanism = name
+        chosen.mechanism, chosen.started = name, time.monotonic()
         result = classified(chosen)
         cards.append(card(result))
         _write(folder / page_name(name), report(result))

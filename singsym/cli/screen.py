@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
-from singsym.cli.watch import talk, watched
+from singsym.cli.watch import print_line, talk, watched
 
 if TYPE_CHECKING:
     from singsym.effort.progress import Event
@@ -26,12 +26,13 @@ class UserError(Exception):
 def say(text: str) -> None:
     """A message on stderr, unless the user wants none."""
     if talk.get() != "quiet":
-        print(text, file=sys.stderr)
+        print_line(text)
 
 
 def emit_data(data: Any) -> None:
     """JSON on stdout, in one line for a pipe and indented for a terminal."""
-    print(json.dumps(data, indent=2 if sys.stdout.isatty() else None, ensure_ascii=False))
+    unicode = (sys.stdout.encoding or "").lower().replace("-", "") == "utf8"
+    print(json.dumps(data, indent=2 if sys.stdout.isatty() else None, ensure_ascii=not unicode))
 
 
 def emit_page(page: Page) -> None:

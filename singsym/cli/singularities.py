@@ -6,6 +6,7 @@ Source: sections 2.3, 3.1 and 3.2 of Zlatanov, Fenton, Benhabib (1998).
 from __future__ import annotations
 
 import argparse
+import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, cast
@@ -211,11 +212,17 @@ def _cluster(chosen: argparse.Namespace) -> Iterator[Executor | None]:
 
 
 def _limits(chosen: argparse.Namespace) -> Limits:
-    """The time for everything, a tenth of it at most for each part; the defaults without --budget."""
+    """The time for everything, a tenth of it at most for each part; the defaults without --budget.
+
+    What has passed since the command began counts, too.
+    """
     from singsym.classes.classify import Limits
 
     usual = Limits()
-    return usual if chosen.budget is None else Limits(usual.part(chosen.budget / 10), clock=chosen.budget)
+    if chosen.budget is None:
+        return usual
+    left = max(0.0, chosen.budget - (time.monotonic() - chosen.started))
+    return Limits(usual.part(chosen.budget / 10), clock=left)
 
 
 def _resumable(chosen: argparse.Namespace) -> None:

@@ -1,4 +1,4 @@
-"""What is seen of work under way: a bar on a terminal, lines elsewhere, how far it is and what may be left.
+"""What is seen of work under way: what was found, how far it is and what may be left; or lines.
 
 Source: rich (https://rich.readthedocs.io); what is left by the mean so far, as GNU parallel's --eta.
 """
@@ -9,9 +9,9 @@ import logging
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from contextvars import ContextVar
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from singsym.effort.progress import Event
@@ -45,6 +45,12 @@ def talking(how: Talk) -> Iterator[None]:
         log.setLevel(level)
 
 
+def print_line(text: str) -> None:
+    """A line on stderr; where that takes none, as on a full disk, the work goes on without."""
+    with suppress(OSError):
+        print(text, file=sys.stderr, flush=True)
+
+
 @contextmanager
 def watched(note: Callable[[Event], None]) -> Iterator[Callable[[Event], None]]:
     """What notes an event and shows it in the way that was chosen."""
@@ -54,8 +60,8 @@ def watched(note: Callable[[Event], None]) -> Iterator[Callable[[Event], None]]:
 
         def show(event: Event) -> None:
             note(event)
-            if line := lines.line(event, time.monotonic()):
-                print(line, file=sys.stderr, flush=True)
+            for line in lines.lines(event, time.monotonic()):
+                print_line(line)
 
         yield show
     elif how == "usual" and sys.stderr.isatty():
@@ -67,8 +73,11 @@ def watched(note: Callable[[Event], None]) -> Iterator[Callable[[Event], None]]:
 
 @contextmanager
 def _bar(note: Callable[[Event], None]) -> Iterator[Callable[[Event], None]]:
-    from rich.console import Console
+    from rich.console import Console, Group
+    from rich.live import Live
     from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+    from rich.table import Table
+    from rich.text import Text
 
     columns = (
         SpinnerColumn(),
@@ -78,12 +87,21 @@ def _bar(note: Callable[[Event], None]) -> Iterator[Callable[[Event], None]]:
         TimeElapsedColumn(),
     )
     pace = Pace()
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task("starting", total=None, how_far="")
+    bar, console = Progress(*columns), Console(stderr=True)
+    task = bar.add_task("starting", total=None, how_far="")
+    findings: tuple[tuple[str, str], ...] = ()
+    with Live(bar, console=console, transient=True) as live:
 
         def show(event: Event) -> None:
+            nonlocal findings
             note(event)
             now = time.monotonic()
+            if event.findings != findings:
+                findings = event.findings
+                found = Table.grid(padding=(0, 2, 0, 0))
+                for about, words in findings[-max(1, console.height - 2) :]:
+                    found.add_row(Text(about), Text(words, no_wrap=True, overflow="ellipsis"))
+                live.update(Group(found, bar))
             pace.tell(event, now)
             described = f"{event.stage}: {event.detail}" if event.detail else event.stage
             bar.update(
@@ -138,17 +156,29 @@ class Pace:
 
 
 class Lines:
-    """Events as lines: one as a stage begins, and now and then while it goes on; everything: each event."""
+    """Events as lines: one as a stage begins, and now and then while it goes on; everything: each event.
+
+    What is found has a line each.
+    """
 
     def __init__(self, everything: bool = False) -> None:
         self.everything = everything
         self.pace = Pace()
         self.started: float | None = None
-        self.said = ("", 0.0)
+        self.said: dict[str, float] = {}
         self.last: Event | None = None
+        self.findings: dict[str, str] = {}
+
+    def lines(self, event: Event, now: float) -> list[str]:
+        """The lines to print: what is new, and how far the work is."""
+        since = span(now - (self.started if self.started is not None else now))
+        new = [f"{since}: {a}: {words}" for a, words in event.findings if self.findings.get(a) != words]
+        self.findings = dict(event.findings)
+        line = self.line(replace(event, findings=()), now)
+        return [*new, line] if line else new
 
     def line(self, event: Event, now: float) -> str:
-        """The line to print, "" for none.
+        """The line that says how far the work is, "" for none.
 
         >>> lines = Lines()
         >>> lines.line(Event("strata", "", 0, 2), 50.0)
@@ -160,18 +190,18 @@ class Lines:
         """
         self.started = now if self.started is None else self.started
         self.pace.tell(event, now)
-        stage, when = self.said
-        if event.done is None:
+        when = self.said.get(event.stage)
+        if event.total is None:
             wanted = self.everything and event != self.last
         else:
-            new = event.stage != stage or (self.everything and event != self.last)
-            wanted = new or now - when >= LINE_SECONDS
+            new = when is None or now - when >= LINE_SECONDS
+            wanted = new or (self.everything and event != self.last)
         self.last = event
         if not wanted:
             return ""
-        if event.done is None:
+        if event.total is None:
             return f"{span(now - self.started)}: {event}"
-        self.said = event.stage, now
+        self.said[event.stage] = now
         words = self.pace.words(now)
         return f"{span(now - self.started)}: {event.stage}{f', {words}' if words else ''}"
 

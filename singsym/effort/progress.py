@@ -9,12 +9,14 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 
 @dataclass(frozen=True)
 class Event:
     """A stage of the work and how far it is: `done` of `total` where they are known.
+
+    findings: what was found so far, each with what it is about, as ("1 (RI, IO)", "occurs").
 
     >>> str(Event("decompose", "BCD", 2, 5))
     'decompose: BCD (2 of 5)'
@@ -24,6 +26,7 @@ class Event:
     detail: str = ""
     done: int | None = None
     total: int | None = None
+    findings: tuple[tuple[str, str], ...] = ()
 
     def __str__(self) -> str:
         text = f"{self.stage}: {self.detail}" if self.detail else self.stage
@@ -40,16 +43,17 @@ BEAT = 1.0
 
 
 class _Listener:
-    """A sink, and what it was told last."""
+    """A sink, what it was told last, and all that was found."""
 
     def __init__(self, sink: Sink) -> None:
         self.sink = sink
         self.last: Event | None = None
         self.told = 0.0
+        self.findings: dict[str, str] = {}
 
     def tell(self, event: Event) -> None:
         self.last, self.told = event, time.monotonic()
-        self.sink(event)
+        self.sink(replace(event, findings=tuple(self.findings.items())))
 
 
 _listener: ContextVar[_Listener | None] = ContextVar("progress_listener", default=None)
@@ -60,6 +64,21 @@ def report(stage: str, detail: str = "", done: int | None = None, total: int | N
     listener = _listener.get()
     if listener is not None:
         listener.tell(Event(stage, detail, done, total))
+
+
+def report_finding(about: str, words: str) -> None:
+    """Tell the sink in force, if any, what was found out; a later finding about the same takes its place.
+
+    >>> events = []
+    >>> with to(events.append):
+    ...     report_finding("1 (RI, IO)", "occurs")
+    >>> events[0].findings
+    (('1 (RI, IO)', 'occurs'),)
+    """
+    listener = _listener.get()
+    if listener is not None and listener.findings.get(about) != words:
+        listener.findings[about] = words
+        listener.tell(listener.last or Event("starting"))
 
 
 def beat() -> None:

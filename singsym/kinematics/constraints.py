@@ -36,11 +36,11 @@ def constrained(mechanism: Mechanism, placed: Placement) -> Placement:
         if square is not None:
             nonnegative += _strut_limits(limit, square, mechanism, placed)
             continue
-        value, scale = _value(limit.expression, mechanism, placed)
+        value, scale = scaled_value(limit.expression, mechanism, placed)
         if limit.low is not None:
-            nonnegative.append(value - _value(limit.low, mechanism, placed)[0] * scale)
+            nonnegative.append(value - scaled_value(limit.low, mechanism, placed)[0] * scale)
         if limit.high is not None:
-            nonnegative.append(_value(limit.high, mechanism, placed)[0] * scale - value)
+            nonnegative.append(scaled_value(limit.high, mechanism, placed)[0] * scale - value)
     space = replace(space, exclusions=tuple(exclusions), nonnegative=tuple(nonnegative))
     return replace(placed, space=space)
 
@@ -59,15 +59,15 @@ def _strut_limits(
     """low <= length <= high for a positive length, by squares; a lower bound of zero or less says nothing."""
     found = []
     if limit.low is not None and not sympy.sympify(limit.low, strict=True).is_nonpositive:
-        found.append(square - _value(limit.low, mechanism, placed)[0] ** 2)
+        found.append(square - scaled_value(limit.low, mechanism, placed)[0] ** 2)
     if limit.high is not None:
-        found.append(_value(limit.high, mechanism, placed)[0] ** 2 - square)
+        found.append(scaled_value(limit.high, mechanism, placed)[0] ** 2 - square)
     return found
 
 
 def _excluded(exclusion: Exclusion, mechanism: Mechanism, placed: Placement) -> tuple[Polynomial, ...]:
     if exclusion.expression is not None:
-        return (_value(exclusion.expression, mechanism, placed)[0],)
+        return (scaled_value(exclusion.expression, mechanism, placed)[0],)
     first, second = (_point(name, placed, mechanism) for name in exclusion.points)
     return tuple(d for d in (a - b for a, b in zip(first, second, strict=True)) if d)
 
@@ -79,7 +79,9 @@ def _point(name: str, placed: Placement, mechanism: Mechanism) -> tuple[Polynomi
     raise MechanismError([Problem("exclusions", name, f"a named point: {known}", file=mechanism.origin)])
 
 
-def _value(expression: sympy.Expr, mechanism: Mechanism, placed: Placement) -> tuple[Polynomial, Polynomial]:
+def scaled_value(
+    expression: sympy.Expr, mechanism: Mechanism, placed: Placement
+) -> tuple[Polynomial, Polynomial]:
     """An expression as a polynomial over a positive scale."""
     ring = placed.space.ring
     numbers = dimensions(mechanism, placed.space.variables)
@@ -93,8 +95,9 @@ def _value(expression: sympy.Expr, mechanism: Mechanism, placed: Placement) -> t
                 value, scale = value * image ** int(exponent), scale * below ** int(exponent)
             else:
                 value = value * ring.convert(numbers.number(factor))
-        total = total * scale + value * scales
-        scales = scales * scale
+        shared = scales.gcd(scale)
+        more, other = scale.exact_quotient(shared), scales.exact_quotient(shared)
+        total, scales = total * more + value * other, scales * more
     return total, scales
 
 

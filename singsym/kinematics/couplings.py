@@ -1,4 +1,4 @@
-"""Coupled joints in the configuration space: what gears say of cosines and sines, or of lengths.
+"""Coupled joints in the configuration space: what gears and cams say of cosines and sines, or of lengths.
 
 Source: de Moivre's formula: whole multiples of angles are powers of cosine + i sine.
 
@@ -7,17 +7,22 @@ u_k = c_k + i s_k is exp(i phi): one equation on a torus, whose derivative along
 times sum a_k omega_k. Its real and imaginary part generate the same ideal there, so that a coupling is one
 smooth hypersurface, whose tangents have the rates of the velocity equation.
 
+Lemma. So is a cam, l = lift(c, s): its derivative along a motion is that of l minus the lift's derivative
+along the circle, times the rate of the angle.
+
 Lemma. In all ways to mount k screws and racks, these ask for nothing: L without k rows, which has at most k
 motions more; where L has rank N, exactly k more, and the space of all mountings has dimension n + k.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
+from math import prod
 
 import sympy
 
+from singsym.kinematics.constraints import scaled_value
 from singsym.kinematics.dimensions import dimensions
 from singsym.kinematics.placement import JointValue, Placement
 from singsym.mechanism.couplings import Relation, angle_relations, mountings, slide_relations
@@ -46,10 +51,16 @@ def coupled(mechanism: Mechanism, placed: Placement) -> Placement:
     return replace(placed, space=replace(space, equations=equations))
 
 
-def coupling_rows(mechanism: Mechanism) -> Iterator[tuple[str, Mapping[str, sympy.Rational]]]:
-    """The rows of L: a name, and the coefficients of the rates by column label."""
+def coupling_rows(mechanism: Mechanism, placed: Placement) -> Iterator[tuple[str, dict[str, Polynomial]]]:
+    """The rows of L: a name, and the coefficients of the rates by column label.
+
+    Those of a cam are times a positive number, so that they are polynomials.
+    """
     for coupling in mechanism.resolved.couplings:
-        yield f"coupling {coupling.name}", dict(coupling.terms)
+        found = {column: scaled_value(x, mechanism, placed) for column, x in coupling.terms}
+        scale = prod((below for _, below in found.values()), start=placed.space.ring.one)
+        row = {column: value * scale.exact_quotient(below) for column, (value, below) in found.items()}
+        yield f"coupling {coupling.name}", row
 
 
 def _equations(mechanism: Mechanism, placed: Placement) -> Iterator[Polynomial]:
@@ -60,6 +71,10 @@ def _equations(mechanism: Mechanism, placed: Placement) -> Iterator[Polynomial]:
         for column, number in relation.terms:
             total = total + sized.number(number) * _length(column, mechanism, placed)
         yield total
+    for coupling in mechanism.resolved.couplings:
+        if coupling.lift is not None:
+            lift, scale = scaled_value(coupling.lift, mechanism, placed)
+            yield scale * _length(coupling.terms[0][0], mechanism, placed) - lift
     for relation in angle_relations(mechanism):
         phase = (sized.number(sympy.cos(relation.constant)), sized.number(sympy.sin(relation.constant)))
         yield from _angles(relation, mechanism, placed, phase, (ring.one, ring.zero))

@@ -63,6 +63,7 @@ class Dimensions:
             expressions.extend((limit.expression, limit.low, limit.high))
         expressions.extend(e.expression for e in mechanism.exclusions)
         expressions.extend(r.constant for r in slide_relations(mechanism))
+        expressions.extend(c.lift for c in mechanism.couplings)
         for relation in angle_relations(mechanism):
             expressions.extend((sympy.cos(relation.constant), sympy.sin(relation.constant)))
         for axis in (a for link in mechanism.links for a in link.axes.values()):

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
@@ -154,10 +153,10 @@ def velocity_equation(mechanism: Mechanism, formulation: str = "auto") -> Veloci
             row[place_of[column]] = entry
         rows.append(row)
         names.append(f"no idle spin at {name}")
-    for name, coefficients in coupling_rows(mechanism):
+    for name, coefficients in coupling_rows(mechanism, placed):
         row = [ring.zero] * width
-        for column, number in coefficients.items():
-            row[place_of[column]] = ring.constant(Fraction(int(number.p), int(number.q)))
+        for column, entry in coefficients.items():
+            row[place_of[column]] = entry
         rows.append(row)
         names.append(name)
     inputs = set(mechanism.inputs)

@@ -224,8 +224,8 @@ def _bounds(mechanism: Mechanism) -> Iterator[tuple[str, tuple[sympy.Expr | None
     for exclusion in mechanism.exclusions:
         yield f"exclusions.{exclusion.words}", (exclusion.expression,)
     for coupling in mechanism.couplings:
-        if is_sliding(mechanism, coupling):
-            yield f"couplings.{coupling.name}.constant", (coupling.constant,)
+        if coupling.lift is not None or is_sliding(mechanism, coupling):
+            yield f"couplings.{coupling.name}", (coupling.constant, coupling.lift)
 
 
 def _quantities(value: sympy.Expr) -> set[sympy.Symbol]:

@@ -145,6 +145,11 @@ def tables(text: str, origin: str = "") -> dict[str, Any]:
         found = f"a name for the second time: {error}" if twice else f"no TOML: {error}"
         expected = "each name once in a table" if twice else "TOML"
         advice = "see `singsym new` for an example"
+        if text.lstrip().startswith("{"):
+            found, advice = (
+                "JSON",
+                "`singsym new NAME` writes a file to put its points, links and joints into",
+            )
         if bare := _bare_expression(text, str(error)):
             advice = f"put expressions in quotes, as {bare}"
         raise MechanismError([Problem("file", found, expected, advice, origin)]) from None

@@ -176,16 +176,42 @@ class Exclusion:
 
 @dataclass(frozen=True)
 class Coupling:
-    """Gears, a belt, a differential, a rack: a sum of multiples of joint rates that is zero.
+    """Gears, a belt, a differential, a rack, a cam: a sum of multiples of joint rates that is zero.
 
     terms: column label and rational coefficient; of turns beside slides that of a turn is a length.
     constant: the same sum of the joints' values, an angle in radians, modulo full turns of each, or a length;
         None for turns beside slides, which may be mounted in any way.
+    lift: of a cam, the length of its follower, a slide, as a polynomial in the symbols cos(A) and sin(A) of a
+        turn A, or length(P) of another slide; the terms then are 1 and minus its derivative.
     """
 
     name: str
     terms: tuple[tuple[str, sympy.Expr], ...]
     constant: sympy.Expr | None = sympy.S.Zero
+    lift: sympy.Expr | None = None
+
+    @classmethod
+    def cam(cls, name: str, follower: str, driver: str, lift: sympy.Expr) -> Coupling:
+        """The coupling in which a slide has a length that depends on the value of another freedom.
+
+        >>> Coupling.cam("cam", "P", "A", 3 + 2 * sympy.Symbol("cos(A)")).terms
+        (('P', 1), ('A', 2*sin(A)))
+        """
+        cosine, sine, length = (sympy.Symbol(f"{of}({driver})") for of in ("cos", "sin", "length"))
+        slope = lift.diff(sine) * cosine - lift.diff(cosine) * sine + lift.diff(length)
+        return cls(name, ((follower, sympy.S.One), (driver, -sympy.expand(slope))), lift=lift)
+
+    @property
+    def relation(self) -> str:
+        """What holds of the joints' values, as text.
+
+        >>> Coupling("gears", (("A", sympy.Rational(3, 2)), ("B.angle", sympy.S.One)), sympy.pi / 6).relation
+        '3*A/2 + B.angle = pi/6'
+        """
+        if self.lift is not None:
+            return f"{self.terms[0][0]} = {self.lift}"
+        total = sympy.Add(*(number * sympy.Symbol(column) for column, number in self.terms))
+        return f"{total} {'constant' if self.constant is None else f'= {self.constant}'}"
 
 
 @dataclass(frozen=True)
@@ -343,6 +369,7 @@ class Mechanism:
                     c.name,
                     tuple((column, put(x, f"couplings.{c.name}")) for column, x in c.terms),
                     put(c.constant, f"couplings.{c.name}"),
+                    put(c.lift),
                 )
                 for c in self.couplings
             ),

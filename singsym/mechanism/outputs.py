@@ -99,7 +99,7 @@ def read_limits(value: Any, known: Quantities, reader: Reader) -> tuple[Limit, .
         if len(pair) != 2 or pair == [None, None]:
             reader.report(place, kind_of(bounds), "[low, high], { min = low } or { max = high }")
             continue
-        subject = _parse(text, known, place, reader)
+        subject = moving_polynomial(text, known, place, reader)
         name = str(subject)
         if subject.is_Symbol and name.startswith("angle("):
             limits.append(_angle_limit(name[6:-1], pair, place, reader))
@@ -135,7 +135,7 @@ def read_exclusions(value: Any, known: Quantities, reader: Reader) -> tuple[Excl
         elif set(read) == {"zero"}:
             if not (text := reader.text(read["zero"], place)):
                 continue
-            subject = _parse(text, known, place, reader)
+            subject = moving_polynomial(text, known, place, reader)
             if subject.is_Symbol and str(subject).startswith("angle("):
                 reader.report(place, text, "cos(JOINT) and sin(JOINT), in which conditions are polynomials")
             exclusions.append(Exclusion("zero", expression=subject, words=words))
@@ -145,7 +145,7 @@ def read_exclusions(value: Any, known: Quantities, reader: Reader) -> tuple[Excl
     return tuple(exclusions)
 
 
-def _parse(text: str, known: Quantities, place: str, reader: Reader) -> sympy.Expr:
+def moving_polynomial(text: str, known: Quantities, place: str, reader: Reader) -> sympy.Expr:
     """A polynomial in coordinates and joint quantities, or the angle of a joint alone."""
     try:
         read = parse(text, reader.parameters, quantities=known, place=place, file=reader.file)

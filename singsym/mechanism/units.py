@@ -79,7 +79,9 @@ def _lengths(mechanism: Mechanism) -> Iterator[sympy.Expr]:
             yield from point
     yield from (joint.pitch for joint in mechanism.joints if joint.pitch is not None)
     for coupling in mechanism.couplings:
-        if coupling.constant is None:
+        if coupling.lift is not None:
+            yield coupling.lift.xreplace(dict.fromkeys(_length_symbols(coupling.lift), sympy.S.Zero))
+        elif coupling.constant is None:
             turns = turning_terms(mechanism, coupling)
             yield from (number for column, number in coupling.terms if column in turns)
         elif is_sliding(mechanism, coupling):
@@ -120,6 +122,10 @@ def _scaled_exclusion(exclusion: Exclusion, factor: sympy.Rational) -> Exclusion
 
 
 def _scaled_coupling(coupling: Coupling, mechanism: Mechanism, factor: sympy.Rational) -> Coupling:
+    if coupling.lift is not None:
+        (follower, _), (driver, _) = coupling.terms
+        old = coupling.lift.xreplace({s: s / factor for s in _length_symbols(coupling.lift)})
+        return Coupling.cam(coupling.name, follower, driver, sympy.expand(factor * old))
     if coupling.constant is None:
         turns = turning_terms(mechanism, coupling)
         return replace(coupling, terms=tuple((c, factor * x if c in turns else x) for c, x in coupling.terms))

@@ -67,6 +67,9 @@ def dumps(mechanism: Mechanism) -> str:
 
 
 def _coupling(coupling: Coupling) -> str:
+    if coupling.lift is not None:
+        follower = _quote(coupling.terms[0][0])
+        return f"{coupling.name} = {{ follower = {follower}, lift = {_number(coupling.lift)} }}"
     rates = ", ".join(f"{_quote(column)} = {_number(x)}" for column, x in coupling.terms)
     constant = "" if coupling.constant is None else f", constant = {_number(coupling.constant)}"
     return f"{coupling.name} = {{ rates = {{ {rates} }}{constant} }}"

@@ -42,6 +42,7 @@ def mechanism_data(mechanism: Mechanism, equation: VelocityEquation) -> dict[str
                 "name": c.name,
                 "rates": {column: str(x) for column, x in c.terms},
                 "constant": None if c.constant is None else str(c.constant),
+                **({} if c.lift is None else {"lift": str(c.lift)}),
             }
             for c in mechanism.couplings
         ],

@@ -101,18 +101,8 @@ def output_text(output: Output) -> str:
 
 
 def coupling_text(coupling: Coupling) -> str:
-    """The relation between the joints' values: whatever the constant, that of their rates has zero for it.
-
-    >>> from sympy import Rational, pi
-    >>> from singsym.mechanism import Coupling
-    >>> coupling_text(Coupling("gears", (("A", Rational(3, 2)), ("B.angle", Rational(1))), pi / 6))
-    'gears, 3*A/2 + B.angle = pi/6'
-    """
-    from sympy import Add, Symbol
-
-    total = Add(*(number * Symbol(column) for column, number in coupling.terms))
-    constant = "constant" if coupling.constant is None else f"= {coupling.constant}"
-    return f"{coupling.name}, {total} {constant}"
+    """The relation between the joints' values: whatever the constant, that of their rates has zero for it."""
+    return f"{coupling.name}, {coupling.relation}"
 
 
 def _parameter_text(parameter: Parameter) -> str:

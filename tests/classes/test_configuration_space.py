@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from singsym.classes.classify import classify
-from singsym.classes.configuration_space import configuration_space
+from singsym.classes.configuration_space import configuration_space, smoothness
 from singsym.classes.taxonomy.types import SingularityType as T
 from singsym.conditions.conditions import conditions
 from singsym.effort.verdict import Verdict
@@ -28,13 +28,14 @@ def test_a_class_that_is_open_may_be_a_piece_by_itself() -> None:
     left = replace(still, verdict=Verdict.undecided(LATE), extent=Extent(open=LATE), pieces=())
     classes = [left if c is still else c for c in result.classes]
     pieces = [p for c in classes for p in c.pieces]
-    found = configuration_space(mechanism, conditions(result.equation, result.reduction), pieces, classes)
+    given = conditions(result.equation, result.reduction)
+    found = configuration_space(mechanism, given, pieces, classes, smoothness(mechanism, given, classes))
     assert [piece.dimension for piece in found] == [0, None]
     assert found[1].verdict.is_undecided
     assert found[1].extent.open == LATE
     assert "RI, IO" in found[1].remark
     smaller = [replace(left, extent=Extent(-1, -1)) if c is left else c for c in classes]
-    assert len(configuration_space(mechanism, conditions(result.equation), pieces, smaller)) == 1
+    assert len(configuration_space(mechanism, given, pieces, smaller, ("undecided", ""))) == 1
 
 
 def test_an_over_constrained_linkage_with_more_tangents_than_motions() -> None:

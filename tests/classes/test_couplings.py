@@ -277,3 +277,73 @@ def test_a_screw_is_mounted_in_any_way() -> None:
     assert not result.undecided
     assert [(s.dimension, s.smooth) for s in result.configuration_space] == [(3, "yes")]
     assert {c.types: c.dimension for c in result.classes if c.verdict.is_yes} == {T.RI | T.IO: 2}
+
+
+def cam(lift: str, pushed: dict[str, Any] | None = None, **more: Any) -> Mechanism:
+    """A disk on A, and a follower that slides along y, with a point T; `pushed` hangs on T."""
+    up = {"axes": {"y": [0, 1]}}
+    return define(
+        **{"inputs": ["A"], "output": {"velocity": "T", "components": ["y"]}, **more},
+        links={
+            "ground": {"points": {"A": [0, 0], "O": [0, 0], "D": [3, 4]}, **up},
+            "disk": {"points": {"A": [0, 0]}},
+            "follower": {"points": {"T": [0, 0]}, **up},
+            **(pushed or {}),
+        },
+        joints={
+            "A": "R",
+            "P": {"type": "P", "links": ["ground", "follower"], "at": ["O", "T"], "axis": "y"},
+            **dict.fromkeys("TCD" if pushed else "", "R"),
+        },
+        couplings={"cam": {"follower": "P", "lift": lift}},
+    )
+
+
+LIFTS = {
+    "3 + 2*sin(A)": lambda a: 3 + 2 * np.sin(a),
+    "3 + sin(A) + 2*cos(A)^2": lambda a: 3 + np.sin(a) + 2 * np.cos(a) ** 2,
+    "4 + cos(A) - 4*cos(A)^3": lambda a: 4 + np.cos(a) - 4 * np.cos(a) ** 3,
+}
+
+
+@pytest.mark.parametrize("lift", LIFTS)
+def test_a_cam_by_its_extremes(lift: str) -> None:
+    """The follower rests, (RI, IO), where its lift is extreme; where it drives, it is dead there."""
+    a = np.linspace(0, 2 * np.pi, 40001) + 1e-3
+    extremes = changes(np.diff(LIFTS[lift](a)))
+    result = classify(cam(lift), cache=False)
+    assert numbers(result) == {T.RI | T.IO: extremes}
+    assert [(s.dimension, s.smooth) for s in result.configuration_space] == [(1, "yes")]
+    back = classify(cam(lift, inputs=["P"], output={"rate": "A"}), cache=False)
+    assert numbers(back) == {T.RO | T.II: extremes}
+
+
+def pushing(lift: str, **more: Any) -> Mechanism:
+    """The follower's point T pushes a rod TC of length 4 on a rocker CD of length 2 about (3, 4)."""
+    return cam(lift, {"TC": 4, "CD": 2}, output={"rate": "D"}, **more)
+
+
+@pytest.mark.parametrize("lift", LIFTS)
+def test_a_cam_that_pushes_a_rocker(lift: str) -> None:
+    """T = (0, lift) is between 2 and 6 from D: it is dead where it comes to an end, (RO, II).
+
+    The rocker is still, (RI, IO), at extremes of the lift, each with two positions of the rocker, and where
+    the rod is level: C = (4, lift) is 2 from D at two lifts, C = (-4, lift) at none.
+    """
+    a = np.linspace(0, 2 * np.pi, 40001) + 1e-3
+    far = np.hypot(3, LIFTS[lift](a) - 4)
+    ends = changes(far - 6) + changes(far - 2)
+    slope = np.diff(LIFTS[lift](a))
+    rests = int(np.sum((np.diff(np.sign(slope)) != 0) & (far[1:-1] < 6) & (far[1:-1] > 2)))
+    found = numbers(classify(pushing(lift), cache=False))
+    level = changes(LIFTS[lift](a) - 4 - math.sqrt(3)) + changes(LIFTS[lift](a) - 4 + math.sqrt(3))
+    expected = {T.RO | T.II: ends, T.RI | T.IO: 2 * rests + level}
+    assert found == {types: count for types, count in expected.items() if count}
+
+
+@pytest.mark.parametrize("disguise", [mirrored, reordered, scaled(1000)])
+def test_a_cam_in_disguise(disguise: Any) -> None:
+    mechanism = pushing("3 + sin(A) + 2*cos(A)^2")
+    plain = classification_data(classify(mechanism, cache=False))
+    other = classification_data(classify(disguise(mechanism), cache=False))
+    assert not contradictions(plain, other, same_names=False)

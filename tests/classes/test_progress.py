@@ -31,6 +31,21 @@ def test_stages_come_in_their_order_and_reach_their_ends() -> None:
     assert all(0 <= e.done <= e.total for e in events if e.done is not None and e.total is not None)
 
 
+def test_what_is_found_is_told_as_it_comes() -> None:
+    """Conditions before any task, then classes; at the end all that occur, as in the result."""
+    events: list[Event] = []
+    result = classify(load("zlatanov-2dof"), cache=False, progress=events.append)
+    first = next(e for e in events if e.stage == "strata")
+    assert [about for about, _ in first.findings] == ["(4)", "(5)"]
+    assert dict(first.findings)["(4)"] == "B, C, D collinear; or C, F, G collinear"
+    last = dict(events[-1].findings)
+    there = {str(c.singularity_class) for c in result.classes if c.verdict.is_yes}
+    assert there == {about for about in last if about[0] != "("}
+    assert last["1 (RI, IO)"] == "occurs, dimension 1 at least"
+    numbers = [len(e.findings) for e in events]
+    assert numbers == sorted(numbers)
+
+
 def test_equations_and_conditions_tell_of_it_too() -> None:
     told: list[Event] = []
     classify_equation(None, velocity_equation(load("slider-crank")), cache=False, progress=told.append)

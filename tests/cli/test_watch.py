@@ -58,6 +58,7 @@ def test_lines_are_few_and_all_of_them_are_more() -> None:
         Event("engine", "x"),
         Event("loci", "", 0, 1),
     ]
+    events += [Event("curve", "segments", 3)]
     few, many = Lines(), Lines(everything=True)
     assert sum(bool(few.line(e, 0.1 * i)) for i, e in enumerate(events)) == 3
     assert sum(bool(many.line(e, 0.1 * i)) for i, e in enumerate(events)) == len(events)
@@ -74,8 +75,14 @@ def test_lines_off_a_terminal(capsys: pytest.CaptureFixture[str]) -> None:
     assert main([*work, "--no-cache", "--progress"]) == 0
     told = capsys.readouterr()
     lines = told.err.splitlines()
-    assert re.fullmatch(r"\d+ s: strata, 0 of 2", lines[0])
-    assert [line.split(": ")[1].split(",")[0] for line in lines] == ["strata", "real points", "loci"]
+    assert [re.sub(r"^\d+ s: ", "", line) for line in lines] == [
+        "(4): Bx - d_P = 0",
+        "(5): By = 0; or d_P = 0",
+        "strata, 0 of 2",
+        "real points, 0 of 4",
+        "1 (RI, IO): occurs",
+        "loci, 0 of 3",
+    ]
     assert "0 of 0" not in told.err
     assert main([*work, "--no-cache", "--verbose"]) == 0
     assert len(capsys.readouterr().err.splitlines()) > len(lines)
@@ -113,6 +120,7 @@ def test_the_bar_on_a_terminal_counts_and_never_nothing() -> None:
     os.close(slave)
     assert done.returncode == 0
     assert re.search(r"[1-9] of [1-9]", seen)
+    assert "1 (RI, IO)" in seen
     assert "0/0" not in seen
     assert "0 of 0" not in seen
 

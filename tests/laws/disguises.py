@@ -85,6 +85,11 @@ def scaled(factor: Fraction) -> Disguise:
 
 def _coupling(coupling: Coupling, mechanism: Mechanism, length: sympy.Rational, turn: int) -> Coupling:
     """With lengths times a factor, and angles times 1 or -1; of a rack the radius is both."""
+    if coupling.lift is not None:
+        (follower, _), (driver, _) = coupling.terms
+        sine, slide = sympy.Symbol(f"sin({driver})"), sympy.Symbol(f"length({driver})")
+        lift = length * coupling.lift.subs({sine: turn * sine, slide: slide / length}, simultaneous=True)
+        return Coupling.cam(coupling.name, follower, driver, sympy.expand(lift))
     slides = [mechanism.joint(column.split(".")[0]).kind is JointKind.P for column, _ in coupling.terms]
     if coupling.constant is not None:
         return replace(coupling, constant=(length if all(slides) else turn) * coupling.constant)

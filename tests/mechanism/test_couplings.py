@@ -29,7 +29,7 @@ def arm(couplings: object, joints: str = "ABCDF", inputs: object = ("A",), **mor
     return define(**data, links=links, joints=dict.fromkeys(joints, "R"), **more)
 
 
-def slides(couplings: object, inputs: object = ("P",)) -> Mechanism:
+def slides(couplings: object, inputs: object = ("P",), **more: Any) -> Mechanism:
     """Two slides and a pin between the ground and a tool: P along x, Q along y, then R."""
     body = {"points": {}, "axes": {"x": [1, 0], "y": [0, 1]}}
     links = {
@@ -44,7 +44,7 @@ def slides(couplings: object, inputs: object = ("P",)) -> Mechanism:
         "R": "R",
     }
     output = {"velocity": "T", "components": ["x", "y"][: len(list(inputs))]}
-    return define(inputs=list(inputs), output=output, links=links, joints=joints, couplings=couplings)
+    return define(inputs=list(inputs), output=output, links=links, joints=joints, couplings=couplings, **more)
 
 
 def gears(rates: object, **more: object) -> dict[str, object]:
@@ -201,3 +201,56 @@ def test_lengths_scale_with_the_unit() -> None:
     assert rack.couplings[0].terms == (("P", 1), ("R", 500))
     turning = arm(gears({"A": 1, "B": 2}, constant="90 deg"))
     assert scaled(turning, Fraction(1000)).couplings == turning.couplings
+
+
+def cam(lift: str, follower: str = "P") -> dict[str, object]:
+    return {"cam": {"follower": follower, "lift": lift}}
+
+
+def test_of_a_cam_the_lift_is_said() -> None:
+    """The ratio of the rates is the derivative: of 3 + 2 cos R - sin^2 R it is -2 sin R - 2 sin R cos R."""
+    mechanism = slides(cam("3 + a*cos(R) - sin(R)^2"), inputs=("Q",), parameters={"a": 2})
+    (coupling,) = mechanism.resolved.couplings
+    cosine, sine = sympy.symbols("cos(R) sin(R)")
+    assert coupling.terms[0] == ("P", 1)
+    assert coupling.terms[1][0] == "R"
+    assert sympy.expand(coupling.terms[1][1] - 2 * sine - 2 * sine * cosine) == 0
+    assert loads(dumps(mechanism)) == mechanism
+    assert (angle_relations(mechanism), slide_relations(mechanism), mountings(mechanism)) == ((), (), ())
+
+
+def test_a_wedge_is_a_cam_that_slides() -> None:
+    (coupling,) = slides(cam("3 - length(Q)^2/2")).couplings
+    assert coupling.terms == (("P", 1), ("Q", sympy.Symbol("length(Q)")))
+
+
+@pytest.mark.parametrize(
+    ("couplings", "words"),
+    [
+        (cam("3"), r"cam.lift: found 3; expected something that moves"),
+        (cam("cos(R)^2 + sin(R)^2"), r"cam.lift: found the constant .*; expected a lift that varies"),
+        (
+            cam("angle(R)"),
+            r"cam.lift: found angle\(R\); .*write the rates, as of a rack",
+        ),
+        (cam("cos(R) + length(Q)"), r"cam.lift: .*of one joint A, or in length\(P\) of one slide"),
+        (cam("T.x"), r"cam.lift: found T.x; expected a polynomial in cos\(A\)"),
+        (cam("1/(3 + cos(R))"), r"cam.lift: .*expected a polynomial in cos\(R\)"),
+        (cam("cos(R)", "R"), r"cam: found the rates of R, R; expected two joints or more"),
+        (cam("length(Q)", "R"), r"cam.follower: found 'R', which turns; expected a slide, P, Q.*the linkage"),
+        (cam("cos(R)", "S"), r"cam.follower: found the unknown 'S'; expected a slide, P, Q"),
+        ({"cam": {"follower": "P"}}, r"cam.lift: found no lift; expected the length of the follower"),
+        ({"cam": {"follower": "P", "lift": "cos(R)", "rates": {}}}, r"found the key 'rates'"),
+        ({**cam("cos(R)"), "rod": {"follower": "Q", "lift": "2*sin(R)"}}, r"together bind inputs alone"),
+    ],
+)
+def test_faults_of_cams_are_named(couplings: object, words: str) -> None:
+    with pytest.raises(MechanismError, match=words):
+        slides(couplings, inputs=("P", "Q"))
+
+
+def test_a_lift_scales_with_the_unit() -> None:
+    turning, sliding = slides(cam("3 + 2*cos(R)")), slides(cam("3 + 2*length(Q)^2"))
+    cosine, length = sympy.symbols("cos(R) length(Q)")
+    assert scaled(turning, Fraction(10)).couplings[0].lift == 30 + 20 * cosine
+    assert scaled(sliding, Fraction(10)).couplings[0].lift == 30 + length**2 / 5

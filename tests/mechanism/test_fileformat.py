@@ -159,6 +159,7 @@ def test_parameter_that_is_missing_or_symbolic() -> None:
     ("text", "said"),
     [
         ("inputs = [", "no TOML"),
+        ('{"joints": [{"id": "A"}]}', "found JSON; expected TOML; `singsym new NAME`"),
         ("a = " + "[" * 5_000_000 + "]" * 5_000_000, "at most 1000000"),
         ("a = " + "[" * 400_000, "nested too deep"),
         ("a = " + "9" * 5000, "a number too long"),

@@ -49,7 +49,7 @@ R = TypeVar("R", bound=Result)
 ALONE = 3.0
 """So many seconds of work are done before processes are started, which takes a second each."""
 
-GRACE, SHARE_OVER = 2.0, 0.1
+GRACE, SHARE_OVER = 1.0, 0.1
 """So many seconds and so much of the time given may be overrun; then what does not heed it is ended."""
 
 Place = tuple[int, ...]
@@ -84,13 +84,25 @@ class Runner:
     interrupted: bool = False
 
     def map(
-        self, function: Callable[[T], R], tasks: Sequence[T], stage: str, budget: Budget | None = None
+        self,
+        function: Callable[[T], R],
+        tasks: Sequence[T],
+        stage: str,
+        budget: Budget | None = None,
+        seen: Callable[[R], None] | None = None,
     ) -> list[R]:
         """The results in the order of the tasks, whatever order they finish in.
 
         Those not finished when the budget was used up are what such a task says of itself.
+        seen: called with each result as it comes.
         """
-        return [result for _, result in self.grow(function, tasks, _nothing, stage, budget or Budget())]
+
+        def nothing(result: R) -> tuple[()]:
+            if seen is not None:
+                seen(result)
+            return ()
+
+        return [result for _, result in self.grow(function, tasks, nothing, stage, budget or Budget())]
 
     def grow(
         self,
@@ -124,7 +136,7 @@ class Runner:
                 if grown:
                     progress.report(stage, done=len(results) + len(arrived), total=len(grown))
                 if not arrived:
-                    if results and budget.remaining() == 0.0:
+                    if budget.remaining() == 0.0:
                         work.call_off()
                     for job, result in work.finished():
                         if self.cache is not None and job.entry is not None:
@@ -184,10 +196,6 @@ def _first(futures: Collection[Future[Any]], seconds: float | None = None) -> se
             return done
         progress.beat()
     return set()
-
-
-def _nothing(result: object) -> tuple[()]:
-    return ()
 
 
 @dataclass(frozen=True)

@@ -61,6 +61,7 @@ D = "R"
 # gears = { rates = { A = 3, D = 2 } }                          # D turns against A, 3/2 as fast
 # belt = { rates = { A = 1, D = "-1/2" }, constant = "30 deg" } # for the joints' values A - D/2 = 30 deg
 # rack = { rates = { P = 1, A = "1/2" } }                       # a pinion of radius 1/2, mounted anyhow
+# cam = { follower = "P", lift = "3 + cos(A)" }                 # the slide P follows a cam on A: its length
 
 # A serial arm needs no links and joints:
 # [dh]

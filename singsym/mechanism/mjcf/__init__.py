@@ -18,7 +18,7 @@ from singsym.mechanism.model import Mechanism, Space, Twist
 from singsym.mechanism.outputs import TWISTS
 from singsym.mechanism.problems import MechanismError
 
-_ROOT = re.compile(rb"(?:\xef\xbb\xbf)?(?:\s|<\?.*?\?>|<!--.*?-->)*<mujoco[\s/>]", re.DOTALL)
+_ROOT = re.compile(rb"(?:\xef\xbb\xbf)?(?>\s|<\?.*?\?>|<!--.*?-->)*+<mujoco[\s/>]", re.DOTALL)
 
 
 def is_mjcf(path: str | Path) -> bool:

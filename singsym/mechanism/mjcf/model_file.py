@@ -5,6 +5,7 @@ Source: the MJCF reference (https://mujoco.readthedocs.io); nothing is simulated
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -100,12 +101,14 @@ def read_scene(path: str | Path) -> Scene:
         expected = "the Python package mujoco, which reads it"
         raise MechanismError([Problem("file", FORMAT, expected, advice, file)]) from None
     try:
-        spec = mujoco.MjSpec.from_file(file)
-        # shapes and masses do not matter, and need files and weights that may not be there
-        for part in (*spec.geoms, *spec.meshes):
-            spec.delete(part)
-        spec.compiler.boundmass = spec.compiler.boundinertia = 1
-        model = spec.compile()
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of masses
+            spec = mujoco.MjSpec.from_file(file)
+            # shapes and masses do not matter, and need files and weights that may not be there
+            for part in (*spec.geoms, *spec.meshes):
+                spec.delete(part)
+            spec.compiler.boundmass = spec.compiler.boundinertia = 1
+            model = spec.compile()
     except (ValueError, RuntimeError) as error:
         found = f"{FORMAT}, which mujoco refuses: {' '.join(str(error).split())}"
         raise MechanismError([Problem("file", found, "a file that it compiles", file=file)]) from None
@@ -211,10 +214,8 @@ class _Reader:
                     if leader < 0 or multiplier == 0
                     else "a joint that follows a curve"
                 )
-                expected, advice = (
-                    "one at a multiple of another",
-                    "leave a held joint out; of cams nothing is known",
-                )
+                expected = "one at a multiple of another"
+                advice = "leave a held joint out; write a cam in a TOML file, with the lift of its follower"
                 raise self._fault(f"equality {name}", found, expected, advice)
             yield Following(
                 self.joints[int(self.model.eq_obj1id[e])], self.joints[leader], multiplier, offset

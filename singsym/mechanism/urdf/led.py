@@ -131,7 +131,8 @@ def with_limits(robot: Robot, chain: Chain, led: Mapping[str, Led]) -> tuple[Cha
             shared = shared_limits(group, known)
         except ValueError as fault:
             found, expected = str(fault), "limits that one of them can have for all"
-            raise robot.fault(f"joint {leader}", found, expected, f"hold {leader}") from None
+            advice = f"hold it, as --lock {leader}={joints[leader].resting}"
+            raise robot.fault(f"joint {leader}", found, expected, advice) from None
         joints |= {name: replace(joints[name], lower=None, upper=None) for name in known}
         if shared is not None:
             carrier, ends = shared

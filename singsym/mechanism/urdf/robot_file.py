@@ -136,7 +136,9 @@ def _xml(path: Path, file: str) -> Element:
     if len(content) > LARGEST:
         raise MechanismError([Problem("file", f"more than {LARGEST} bytes", expected, file=file)])
     if not content.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<"):
-        found = "an empty file" if not content.strip() else "text that is no XML"
+        world = path.suffix.lower() == ".world"
+        found = "a world of CUIK, or other text that is no XML" if world else "text that is no XML"
+        found = found if content.strip() else "an empty file"
         raise MechanismError([Problem("file", found, expected, _START, file)])
     builder = TreeBuilder()
     parser = expat.ParserCreate()

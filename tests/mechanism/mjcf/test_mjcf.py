@@ -13,6 +13,7 @@ from singsym.classes.classify import classify
 from singsym.classes.configuration.at import at
 from singsym.classes.taxonomy.types import SingularityType
 from singsym.mechanism import Choice, JointKind, MechanismError, dumps, load, loads
+from singsym.mechanism.mjcf import is_mjcf
 
 T = SingularityType
 FOUR_BAR = """
@@ -48,12 +49,24 @@ def test_without_the_package_it_is_named(tmp_path: Path, monkeypatch: pytest.Mon
         load(write(tmp_path, FOUR_BAR))
 
 
+def test_a_long_beginning_is_passed_over_at_once(tmp_path: Path) -> None:
+    """Comments and dashes in any number before the first element: one way to read them, not 2^n."""
+    head = "<?xml version='1.0'?>" + "<!-- one -- > -->\n<!-- two ?> -->\n" * 1000
+    (tmp_path / "a.xml").write_text(f"{head}<robot/>", encoding="utf-8")
+    (tmp_path / "b.xml").write_text(f"{head}<mujoco/>", encoding="utf-8")
+    assert (is_mjcf(tmp_path / "a.xml"), is_mjcf(tmp_path / "b.xml")) == (False, True)
+
+
 class TestWithMujoco:
     """What needs the package."""
 
     @pytest.fixture(autouse=True)
     def _mujoco(self) -> None:
         pytest.importorskip("mujoco")
+
+    def test_what_mujoco_warns_of_is_not_said(self, tmp_path: Path, recwarn: pytest.WarningsRecorder) -> None:
+        load(write(tmp_path, FOUR_BAR.replace("<compiler", "<compiler settotalmass='14'")), ROCKER)
+        assert not recwarn.list
 
     def test_a_loop_is_closed_by_a_ball_joint(self, tmp_path: Path) -> None:
         mechanism = load(write(tmp_path, FOUR_BAR), ROCKER)

@@ -114,7 +114,7 @@ def test_limits_are_put_on_one(
         (
             'joint="to_s2" multiplier="1.5"',
             ("", "-1 1", ""),
-            r"limits of to_s2, to_s3, of which none tells where the others are; .*hold to_s2",
+            r"limits of to_s2, to_s3, of which none tells where the others are; .*hold it, as --lock to_s2=0",
         ),
         ('joint="to_s2"', ("", "-1 1", "2 3"), r"limits of to_s2, to_s3 without a common range"),
         ('joint="to_s3"', ("", "", ""), r"joint to_s3: found joints that follow each other"),
