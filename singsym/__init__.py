@@ -64,6 +64,8 @@ if TYPE_CHECKING:
         load,
         loads,
     )
+    from singsym.motion.distance import NearSingularity, SingularityDistance, singularity_distance
+    from singsym.motion.numeric import NumericLinkage, numeric, numeric_equation
     from singsym.output.figures.figure import plot_configuration, plot_mechanism
     from singsym.output.figures.style import Picture
     from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
@@ -102,6 +104,8 @@ _HOMES = {
         "Choice Exclusion Joint JointKind JointRate Limit Link Mechanism MechanismError Parameter "
         "PointVelocity Problem Space Twist check define dumps library load loads"
     ),
+    "singsym.motion.distance": "NearSingularity SingularityDistance singularity_distance",
+    "singsym.motion.numeric": "NumericLinkage numeric numeric_equation",
     "singsym.output.figures.figure": "plot_configuration plot_mechanism",
     "singsym.output.figures.style": "Picture",
     "singsym.polynomials": "Polynomial PolynomialMatrix Ring",
@@ -156,6 +160,8 @@ __all__ = [
     "MechanismError",
     "Mobility",
     "Motion",
+    "NearSingularity",
+    "NumericLinkage",
     "Parameter",
     "Picture",
     "Piece",
@@ -169,6 +175,7 @@ __all__ = [
     "RedundantChain",
     "Ring",
     "SingularityClass",
+    "SingularityDistance",
     "SingularityType",
     "Solution",
     "SolutionPiece",
@@ -196,11 +203,14 @@ __all__ = [
     "load",
     "loads",
     "loop_closure",
+    "numeric",
+    "numeric_equation",
     "plot_configuration",
     "plot_mechanism",
     "real_curve",
     "reduce",
     "redundant_chain",
+    "singularity_distance",
     "solve",
     "solve_equation",
     "use_seed",

@@ -94,6 +94,8 @@ def parser() -> argparse.ArgumentParser:
     add("solve", "singularities", "the solution sets of some conditions", *whole, _labels)
     words = "ranks, types and null motions of one configuration"
     add("at", "singularities", words, _mechanism, _configuration, short)
+    words = "L, the conditions and the assemblies as code of their own, for a controller"
+    add("export", "motion", words, _mechanism, _language)
     add(
         "classes",
         "singularities",
@@ -298,6 +300,21 @@ def _configuration(command: argparse.ArgumentParser) -> None:
         help="TOML with [joints] A = '30 deg', [points] B = [0.3, 0.95], [variables] Bx = 0.3",
     )
     command.add_argument("--tolerance", type=_positive, help="singular values below this count as zero")
+    command.add_argument(
+        "--distance",
+        action="store_true",
+        help="how far away the nearest singularity of each type is, and which way leads away",
+    )
+
+
+def _language(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--to",
+        dest="language",
+        default="python",
+        choices=("python", "c"),
+        help="Python with its module math, or C99 (default: %(default)s)",
+    )
 
 
 def _mobility(command: argparse.ArgumentParser) -> None:

@@ -197,7 +197,7 @@ def _norm(entries: Matrix) -> Floats:
     """Along the last axis."""
     import numpy as np
 
-    return np.sqrt((entries.astype(np.float64) ** 2).sum(axis=-1))
+    return np.asarray(np.sqrt((entries.astype(np.float64) ** 2).sum(axis=-1)))
 
 
 def _ones_for_zeros(sizes: Floats) -> Floats:

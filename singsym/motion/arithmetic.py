@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import mpmath
 import numpy as np
@@ -20,6 +20,16 @@ from singsym.polynomials.compiled_map import CompiledMap
 Array = NDArray[Any]
 """Of floats, or of objects that are mpmath numbers; the last axis is that of the variables or values."""
 Function = Callable[[Array], Array]
+
+
+class Roots(Protocol):
+    """What closed forms need beside sums, products and quotients."""
+
+    def root(self, squares: Array) -> Array:
+        """Square roots."""
+
+    def solved(self, matrices: Array, sides: Array) -> Array:
+        """x with A x = b."""
 
 
 @dataclass(frozen=True)
@@ -48,7 +58,8 @@ class Arithmetic:
     def compiled(self, polynomials: Sequence[Polynomial], ring: Ring) -> Function:
         """The polynomials as a function of points (..., variables); its values are (..., polynomials)."""
         if self.dps is None:
-            return CompiledMap(polynomials, ring).values
+            values, count, size = CompiledMap(polynomials, ring).values, len(polynomials), len(ring.names)
+            return lambda points: values(points.reshape(-1, size)).reshape(*points.shape[:-1], count)
         return lambda points: self._evaluated(polynomials, points)
 
     def _evaluated(self, polynomials: Sequence[Polynomial], points: Array) -> Array:

@@ -5,7 +5,7 @@ Source: driving constraints, Nikravesh, Computer-Aided Analysis of Mechanical Sy
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from singsym.kinematics.placement import JointValue
@@ -72,10 +72,13 @@ class DrivenSystem:
     unknowns: tuple[str, ...]
 
 
-def driven_system(equation: VelocityEquation, labels: Sequence[str]) -> DrivenSystem:
+def driven_system(
+    equation: VelocityEquation, labels: Sequence[str], more: Mapping[str, JointValue] | None = None
+) -> DrivenSystem:
     """The loop equations with the values of these joints and coordinates given.
 
-    labels: column labels of joints, and coordinates of named points as `C.x`.  Raises `MechanismError` for
+    labels: column labels of joints, and coordinates of named points as `C.x`, or those of `more`,
+    further values by label.  Raises `MechanismError` for
     others, and for a mechanism with symbolic parameters.
 
     >>> from singsym.kinematics.velocity import velocity_equation
@@ -91,9 +94,10 @@ def driven_system(equation: VelocityEquation, labels: Sequence[str]) -> DrivenSy
         )
         raise MechanismError([Problem("parameters", f"no value of {found}", expected)])
     known = {f"{p}.{x}": c for p, v in space.points.items() for x, c in zip("xyz", v, strict=False)}
+    values = {**equation.values, **(more or {})}
     names: list[tuple[str, ...]] = []
     for label in labels:
-        value = equation.values.get(label)
+        value = values.get(label)
         if value is None and label not in known:
             listed = ", ".join([*equation.values, *known])
             raise MechanismError([Problem("values", label, f"joints or coordinates of points: {listed}")])
@@ -103,7 +107,7 @@ def driven_system(equation: VelocityEquation, labels: Sequence[str]) -> DrivenSy
         raise MechanismError([Problem("values", ", ".join(labels), "each label once")])
     ring = space.ring.with_names((*space.ring.names, *(n for own in names for n in own)))
     drives = tuple(
-        _drive(label, own, equation.values.get(label), known.get(label), ring)
+        _drive(label, own, values.get(label), known.get(label), ring)
         for label, own in zip(labels, names, strict=True)
     )
     constants = {c.name for c in space.ring.constants}

@@ -8,15 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import product
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.problems import MechanismError, Problem
-from singsym.motion.arithmetic import Arithmetic, Array, Function
+from singsym.motion.arithmetic import Arithmetic, Array, Function, Roots
 from singsym.motion.drives import DrivenSystem, driven_system
 from singsym.polynomials import Polynomial, Ring
 from singsym.polynomials.block_form import Module, block_form
@@ -40,7 +40,7 @@ class Step(Protocol):
     def has_root(self) -> bool:
         """Whether there are two solutions, told apart by a sign."""
 
-    def solved(self, at: Callable[[Polynomial], Array], sign: int, numbers: Arithmetic) -> list[Array]:
+    def solved(self, at: Callable[[Polynomial], Array], sign: Any, numbers: Roots) -> list[Array]:
         """The unknowns; `at` gives the values of polynomials in the parents."""
 
 
@@ -53,7 +53,7 @@ class LinearStep:
     side: tuple[Polynomial, ...]
     has_root = False
 
-    def solved(self, at: Callable[[Polynomial], Array], sign: int, numbers: Arithmetic) -> list[Array]:
+    def solved(self, at: Callable[[Polynomial], Array], sign: Any, numbers: Roots) -> list[Array]:
         """See `Step`; not a number where the equations are dependent."""
         size = len(self.unknowns)
         entries = np.stack([at(e) for row in self.matrix for e in row], axis=-1)
@@ -70,9 +70,10 @@ class RootStep:
     coefficients: tuple[Polynomial, Polynomial, Polynomial]
     has_root = True
 
-    def solved(self, at: Callable[[Polynomial], Array], sign: int, numbers: Arithmetic) -> list[Array]:
+    def solved(self, at: Callable[[Polynomial], Array], sign: Any, numbers: Roots) -> list[Array]:
         """See `Step`; the sign is that of the equation's derivative."""
-        return [_root(*map(at, self.coefficients), sign, numbers)]
+        constant, first, second = map(at, self.coefficients)
+        return [_root(constant, first, second, sign, numbers)]
 
 
 @dataclass(frozen=True)
@@ -87,7 +88,7 @@ class DyadStep:
         """See `Step`."""
         return self.dyad.unknowns
 
-    def solved(self, at: Callable[[Polynomial], Array], sign: int, numbers: Arithmetic) -> list[Array]:
+    def solved(self, at: Callable[[Polynomial], Array], sign: Any, numbers: Roots) -> list[Array]:
         """See `Step`; the sign is that of the derivative of the conic along the line."""
         zero = next(iter(self.dyad.conic.values())).ring.zero
         a, b, c = (at(self.dyad.line.get(m, zero)) for m in ((1, 0), (0, 1), (0, 0)))
@@ -103,7 +104,7 @@ class DyadStep:
         return [x + t * b, y - t * a]
 
 
-def _root(c: Array, b: Array, a: Array, sign: int, numbers: Arithmetic) -> Array:
+def _root(c: Array, b: Array, a: Array, sign: Any, numbers: Roots) -> Array:
     """The root of a t^2 + b t + c at which the derivative has this sign."""
     with np.errstate(divide="ignore", invalid="ignore"):
         return _over(sign * numbers.root(b * b - 4 * a * c) - b, 2 * a)
@@ -148,13 +149,13 @@ class Forward:
         for constant in ring.constants:
             point[..., ring.index(constant.name)] = self.numbers.array(constant.expression)
         for drive, value in zip(self.system.drives, arrays, strict=True):
-            parts = (self.numbers.cosine, self.numbers.sine) if drive.is_angle else (np.array,)
+            parts = (self.numbers.cosine(value), self.numbers.sine(value)) if drive.is_angle else (value,)
             for name, part in zip(drive.names, parts, strict=True):
-                point[..., ring.index(name)] = part(value)
+                point[..., ring.index(name)] = part
         for step, functions in zip(self.steps, self._functions, strict=True):
             sign = next(signs) if step.has_root else 1
             with self.numbers.precision():
-                found = step.solved(lambda p, f=functions: f[p](point)[..., 0], sign, self.numbers)
+                found = step.solved(partial(functions.value, point), sign, self.numbers)
             for name, array in zip(step.unknowns, found, strict=True):
                 point[..., ring.index(name)] = array
         return point[..., : len(self.equation.space.ring.names)]
@@ -167,8 +168,9 @@ class Forward:
         """The same, not numbers where a loop is open: equations beyond the square systems may not hold."""
         loops, ring = self.equation.space.equations, self.equation.space.ring
         values = self.numbers.compiled(loops, ring)(points).astype(np.float64)
-        sizes = self.equation.compiled_loops.magnitudes(points.astype(np.float64), np.zeros(len(ring.names)))
-        closed = (np.abs(values) <= _CLOSED * sizes[..., : len(loops)] + _CLOSED**2).all(axis=-1)
+        flat = points.astype(np.float64).reshape(-1, len(ring.names))
+        sizes = self.equation.compiled_loops.magnitudes(flat, np.zeros(len(ring.names)))[:, : len(loops)]
+        closed = np.asarray(np.abs(values) <= _CLOSED * sizes.reshape(values.shape) + _CLOSED**2).all(axis=-1)
         return np.where(closed[..., None], points, float("nan"))
 
 
@@ -178,6 +180,10 @@ class _Compiled(dict[Polynomial, Function]):
     def __init__(self, numbers: Arithmetic, ring: Ring) -> None:
         super().__init__()
         self.numbers, self.ring = numbers, ring
+
+    def value(self, point: Array, p: Polynomial) -> Array:
+        """The value of one polynomial."""
+        return self[p](point)[..., 0]
 
     def __missing__(self, p: Polynomial) -> Function:
         self[p] = self.numbers.compiled((p,), self.ring)

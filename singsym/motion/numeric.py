@@ -22,7 +22,7 @@ from singsym.mechanism.problems import MechanismError, Problem
 from singsym.motion.arithmetic import Arithmetic, Array
 from singsym.motion.drives import driven_system
 from singsym.motion.forward import Forward, Mode, forward
-from singsym.motion.newton import brought_onto
+from singsym.motion.newton import Newton
 from singsym.polynomials import PolynomialMatrix
 
 if TYPE_CHECKING:
@@ -80,11 +80,13 @@ class NumericLinkage:
             self._compiled[name] = self.numbers.compiled(entries, matrix.ring), matrix.shape
         function, shape = self._compiled[name]
         points = self._points(q)
-        return function(points).reshape(*points.shape[:-1], *shape)
+        found: Array = function(points)
+        return found.reshape(*points.shape[:-1], *shape)
 
     def loops(self, q: Any) -> Array:
         """What is left of the loop equations, (..., equations): zero where q is a configuration."""
-        return self._function("loops", self.equation.space.equations)(self._points(q))
+        found: Array = self._function("loops", self.equation.space.equations)(self._points(q))
+        return found
 
     def factors(self, label: str) -> tuple[Factor, ...]:
         """The factors of a condition, whose values `condition` gives; none where it holds nowhere.
@@ -99,7 +101,8 @@ class NumericLinkage:
 
     def condition(self, label: str, q: Any) -> Array:
         """The values of the factors of a condition, (..., factors)."""
-        return self._function(label, [f.polynomial for f in self.factors(label)])(self._points(q))
+        found: Array = self._function(label, [f.polynomial for f in self.factors(label)])(self._points(q))
+        return found
 
     def _function(self, name: str, polynomials: Sequence[Any]) -> Any:
         if name not in self._compiled:
@@ -180,7 +183,7 @@ class NumericLinkage:
         Raises `MechanismError` where square roots are not enough, as for a 3-RRR; `near` works there too.
         """
         given = {label: self.numbers.array(v) for label, v in values.items()}
-        solver = self._solver(tuple(given))
+        solver = self.solver(tuple(given))
         if mode is not None:
             if mode not in solver.modes:
                 found, expected = str(mode), f"one of {', '.join(map(str, solver.modes))}"
@@ -193,9 +196,10 @@ class NumericLinkage:
 
         A motion that keeps away from the singularities of these modules keeps its mode.
         """
-        return self._solver(tuple(labels)).modes
+        return self.solver(tuple(labels)).modes
 
-    def _solver(self, labels: tuple[str, ...]) -> Forward:
+    def solver(self, labels: tuple[str, ...]) -> Forward:
+        """The closed form over values of these labels; raises `MechanismError` where there is none."""
         if labels not in self._solvers:
             self._solvers[labels] = forward(self.equation, labels, self.numbers)
         return self._solvers[labels]
@@ -212,7 +216,7 @@ class NumericLinkage:
         """
         system = driven_system(self.equation, tuple(values))
         given = {label: self.numbers.array(v) for label, v in values.items()}
-        return brought_onto(system, given, self._points(q), self.numbers)
+        return Newton(system, self.numbers).onto(given, self._points(q))
 
     def sample(self, count: int, seed: int = 0) -> Array:
         """Up to `count` random configurations, (B, variables); see `kinematics.sampling`."""

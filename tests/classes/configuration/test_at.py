@@ -127,3 +127,18 @@ def test_equations_of_ones_own():
     )
     assert at_equation(own, {"variables": {"c": 1, "s": 0}}).types == T.RI | T.IO
     assert not at_equation(own, {"variables": {"c": "3/5", "s": "4/5"}}).types
+
+
+def test_near_an_earlier_configuration_its_assembly_mode_is_kept() -> None:
+    """A step of a crank; from the other assembly the same values lead to the other configuration."""
+    five_bar = load("five-bar")
+    ends = []
+    for height in (-1, 4):
+        start = at(five_bar, {"joints": {"A": 0.5, "E": 2.5}, "variables": {"Cy": height}})
+        found = at(five_bar, {"joints": {"A": 0.52, "E": 2.5}}, near=start)
+        assert found.located is not None
+        assert found.located.misfit < 1e-9
+        assert max(abs(a - b) for a, b in zip(found.points["C"], start.points["C"], strict=True)) < 0.1
+        assert not found.remarks
+        ends.append(found.points["C"][1])
+    assert ends[1] - ends[0] > 1
