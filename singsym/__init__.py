@@ -65,9 +65,12 @@ if TYPE_CHECKING:
         loads,
     )
     from singsym.motion.distance import NearSingularity, SingularityDistance, singularity_distance
+    from singsym.motion.follow import FollowedMotion, Passage, follow, follow_equation
     from singsym.motion.numeric import NumericLinkage, numeric, numeric_equation
+    from singsym.motion.trajectory import Trajectory
     from singsym.output.figures.figure import plot_configuration, plot_mechanism
     from singsym.output.figures.style import Picture
+    from singsym.output.motion.follow_page import plot_margins
     from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
     from singsym.polynomials.ring import AlgebraicConstant
     from singsym.varieties.constructible import ConstructibleSet
@@ -105,9 +108,12 @@ _HOMES = {
         "PointVelocity Problem Space Twist check define dumps library load loads"
     ),
     "singsym.motion.distance": "NearSingularity SingularityDistance singularity_distance",
+    "singsym.motion.follow": "FollowedMotion Passage follow follow_equation",
     "singsym.motion.numeric": "NumericLinkage numeric numeric_equation",
+    "singsym.motion.trajectory": "Trajectory",
     "singsym.output.figures.figure": "plot_configuration plot_mechanism",
     "singsym.output.figures.style": "Picture",
+    "singsym.output.motion.follow_page": "plot_margins",
     "singsym.polynomials": "Polynomial PolynomialMatrix Ring",
     "singsym.polynomials.ring": "AlgebraicConstant",
     "singsym.varieties.constructible": "ConstructibleSet",
@@ -142,6 +148,7 @@ __all__ = [
     "Exclusion",
     "Extent",
     "Factor",
+    "FollowedMotion",
     "Given",
     "Ideal",
     "Interrupted",
@@ -163,6 +170,7 @@ __all__ = [
     "NearSingularity",
     "NumericLinkage",
     "Parameter",
+    "Passage",
     "Picture",
     "Piece",
     "PointVelocity",
@@ -182,6 +190,7 @@ __all__ = [
     "Space",
     "SpacePiece",
     "SymbolicSpace",
+    "Trajectory",
     "Twist",
     "Undecided",
     "VelocityEquation",
@@ -198,6 +207,8 @@ __all__ = [
     "dumps",
     "engines",
     "feasible_classes",
+    "follow",
+    "follow_equation",
     "from_sympy",
     "library",
     "load",
@@ -206,6 +217,7 @@ __all__ = [
     "numeric",
     "numeric_equation",
     "plot_configuration",
+    "plot_margins",
     "plot_mechanism",
     "real_curve",
     "reduce",

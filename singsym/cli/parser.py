@@ -96,6 +96,8 @@ def parser() -> argparse.ArgumentParser:
     add("at", "singularities", words, _mechanism, _configuration, short)
     words = "L, the conditions and the assemblies as code of their own, for a controller"
     add("export", "motion", words, _mechanism, _language)
+    words = "the singularities that a trajectory meets or narrowly passes"
+    add("follow", "motion", words, _mechanism, _trajectory, short)
     add(
         "classes",
         "singularities",
@@ -305,6 +307,19 @@ def _configuration(command: argparse.ArgumentParser) -> None:
         action="store_true",
         help="how far away the nearest singularity of each type is, and which way leads away",
     )
+
+
+def _trajectory(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "trajectory",
+        metavar="FILE",
+        help="comma-separated values with a header: t, then joints (radians, or as 'A deg') or "
+        "coordinates as C.x, as many as the mobility",
+    )
+    command.add_argument(
+        "--config", metavar="FILE", help="a configuration to start near, as for `at`: of several, which one"
+    )
+    command.add_argument("-o", "--output", metavar="FILE", help="a picture of the margins to write")
 
 
 def _language(command: argparse.ArgumentParser) -> None:

@@ -6,7 +6,7 @@ Source: certified tracking, Beltran, Leykin, Certified numerical homotopy tracki
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -101,6 +101,18 @@ class Continuation:
         if last is None or not (self._holds(box, first) and self._holds(box, last)):
             return None
         return MotionPiece(start, end, box, first, last)
+
+    def on_motion(self, pieces: Sequence[MotionPiece], start: float, end: float, near: Floats) -> Box | None:
+        """Balls with the motion's configuration at each time of a span, which may be in several pieces.
+
+        near: about in its middle, numerically.  None where it is not proven to be on the sheet of `pieces`.
+        """
+        box = self.box_at(start, end, near)
+        own = next((piece for piece in pieces if piece.start <= start <= piece.end), None)
+        point = None if own is None else self.box_at(start, start, self.near(start, near))
+        if box is None or own is None or point is None:
+            return None
+        return box if self._holds(own.box, point) and self._holds(box, point) else None
 
     def middle(self, box: Box) -> Floats:
         """The middle of a box, numerically."""

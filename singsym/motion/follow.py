@@ -192,7 +192,7 @@ class _Following:
         margins = self._margins(points)
         passages: list[Passage] = []
         for own, locus in zip(spans, self.loci, strict=True):
-            passages += self._met(own, locus, times, points)
+            passages += self._met(own, locus, pieces, times, points)
         if until < self.end:
             passages.append(self._ended(until, points[-1]))
         passages += self._narrow(times, points, margins, passages)
@@ -212,7 +212,12 @@ class _Following:
         )
 
     def _met(
-        self, spans: Sequence[Span], locus: SingularLocus, times: Floats, points: Floats
+        self,
+        spans: Sequence[Span],
+        locus: SingularLocus,
+        pieces: Sequence[MotionPiece],
+        times: Floats,
+        points: Floats,
     ) -> Iterator[Passage]:
         """The passages of one locus; where spans that are not sure border on each other they are one.
 
@@ -224,10 +229,10 @@ class _Following:
             near = self.way.near((start + end) / 2, sample)
             if not sure and self.start < start and end < self.end:
                 beside = self.exact * np.array([-1.0, 1.0]) + (start, end)
-                boxes = [self.way.box_at(t, t, self.way.near(t, near)) for t in beside.tolist()]
+                boxes = [self.way.on_motion(pieces, t, t, self.way.near(t, near)) for t in beside.tolist()]
                 signs = [0 if box is None else sure_sign(polynomial, box) for box in boxes]
                 sure = signs[0] * signs[1] < 0
-            box = self.way.box_at(start, end, near) if sure else None
+            box = self.way.on_motion(pieces, start, end, near) if sure else None
             defects = None if box is None else certified_defects(self.equation, box, locus.bounds)
             kind = "met" if sure else "open"
             yield self._passage(kind, start, end, locus.label, locus.words, near, defects)

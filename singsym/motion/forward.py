@@ -171,7 +171,7 @@ class Forward:
         flat = points.astype(np.float64).reshape(-1, len(ring.names))
         sizes = self.equation.compiled_loops.magnitudes(flat, np.zeros(len(ring.names)))[:, : len(loops)]
         closed = np.asarray(np.abs(values) <= _CLOSED * sizes.reshape(values.shape) + _CLOSED**2).all(axis=-1)
-        return np.where(closed[..., None], points, float("nan"))
+        return np.where(np.expand_dims(closed, -1), points, float("nan"))
 
 
 class _Compiled(dict[Polynomial, Function]):

@@ -62,14 +62,15 @@ class Newton:
             for _ in range(_STEPS):
                 residual = self._values(points)
                 matrix = self._slopes(points.astype(np.float64)).reshape(*residual.shape, len(places))
-                safe = np.where(np.isfinite(matrix).all(axis=(-2, -1))[..., None, None], matrix, 0.0)
+                finite = np.isfinite(matrix).all(axis=(-2, -1), keepdims=True)
+                safe = np.where(finite, matrix, 0.0)
                 step = (np.linalg.pinv(safe, rcond=_CUT) @ residual[..., None])[..., 0]
                 points[..., places] = points[..., places] - step
                 if not (np.abs(step.astype(np.float64)) > self._smallest).any():
                     break
             left = np.abs(self._values(points).astype(np.float64)).max(axis=-1, initial=0.0)
         arrived = np.asarray(left < _ARRIVED) & np.isfinite(points.astype(np.float64)).all(axis=-1)
-        return np.where(np.asarray(arrived)[..., None], points[..., :count], float("nan"))
+        return np.where(np.expand_dims(arrived, -1), points[..., :count], float("nan"))
 
     @property
     def _smallest(self) -> float:
