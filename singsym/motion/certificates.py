@@ -6,11 +6,13 @@ Source: Krawczyk, Computing 4 (1969) 187-201; Neumaier, Interval Methods for Sys
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
 from flint import arb
 
+from singsym.classes.configuration.locate import sizes_of_coordinates
 from singsym.classes.taxonomy.types import Defects
 from singsym.kinematics.numerical_rank import numerical_rank
 from singsym.kinematics.velocity import VelocityEquation
@@ -40,6 +42,24 @@ _LEAST = 1e-10
 """Of a box around a configuration in doubles, which may be ill-conditioned, over the size of its numbers."""
 
 
+@dataclass(frozen=True)
+class Enclosure:
+    """Where a sheet is over some values: the only configuration in `room` for each of them lies in `box`.
+
+    Both are balls in the order of the driven system's ring; the box is the narrower one.
+    """
+
+    room: Box
+    box: Box
+
+    def has(self, point: Enclosure, count: int) -> bool:
+        """Whether a point of the sheet is one of another enclosure over one of its values, by uniqueness.
+
+        count: of the variables, which come first.
+        """
+        return all(a.contains(b) for a, b in zip(self.room[:count], point.box[:count], strict=True))
+
+
 class Sheet:
     """The configurations of a driven system near a numerical one, as functions of the given values."""
 
@@ -56,14 +76,15 @@ class Sheet:
         given = [self.ring.index(name) for d in system.drives for name in d.names]
         self._map = CompiledMap(self.equations, self.ring)
         self._places, self._given = places, given
+        self._sizes = sizes_of_coordinates(equation)
 
     @property
     def is_square(self) -> bool:
         """Whether there are as many equations as variables, so that a box can be proven to hold one sheet."""
         return len(self.equations) == len(self.names)
 
-    def over(self, values: Mapping[str, arb], near: Floats) -> Box | None:
-        """Balls, in the order of the wider ring, with exactly one configuration for each choice of values.
+    def over(self, values: Mapping[str, arb], near: Floats) -> Enclosure | None:
+        """Balls in which there is exactly one configuration for each choice of values.
 
         values: radians and lengths, as balls; near: the configuration over their middles, numerically.
         None where the Krawczyk test proves nothing.
@@ -79,15 +100,19 @@ class Sheet:
                 return None
             change = np.abs(np.linalg.solve(square, slopes[:, self._given]))
             widths = change @ np.array([float(b.rad()) for b in given])
-            box = [*map(arb, near.tolist()), *given]
+            middles = near.tolist()
+            box = [*map(arb, middles), *given]
+            # what is quadratic counts where a coordinate is at an end of its range
+            bend = float((widths / self._sizes).max(initial=0.0)) ** 2 * self._sizes
             for wider in _WIDER:
-                radii = {
-                    name: Fraction(wider * width + _LEAST * (1 + abs(x)))
-                    for name, width, x in zip(self.names, widths.tolist(), near.tolist(), strict=True)
-                }
+                least = _LEAST * (1 + np.abs(near))
+                radii = dict(
+                    zip(self.names, map(Fraction, (wider * (widths + bend) + least).tolist()), strict=True)
+                )
                 found = krawczyk(self.equations, self.names, box, radii)
                 if found is not None:
-                    return found if self._is_own(found) else None
+                    room = [arb(x, ball(r).upper()) for x, r in zip(middles, radii.values(), strict=True)]
+                    return Enclosure((*room, *given), found) if self._is_own(found) else None
         return None
 
     def _balls(self, values: Mapping[str, arb]) -> list[arb] | None:

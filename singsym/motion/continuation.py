@@ -15,7 +15,7 @@ from flint import arb, arb_mat
 
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.motion.arithmetic import Arithmetic
-from singsym.motion.certificates import BITS, Sheet, sure_sign
+from singsym.motion.certificates import BITS, Enclosure, Sheet, sure_sign
 from singsym.motion.drives import DrivenSystem
 from singsym.motion.newton import Newton
 from singsym.motion.trajectory import Trajectory
@@ -31,16 +31,21 @@ _SHARE = 0.4871
 
 @dataclass(frozen=True)
 class MotionPiece:
-    """A span of time, and balls that hold the one configuration of the motion at each time of it.
+    """A span of time, and where the one configuration of the motion is at each time of it.
 
-    first: balls around the configuration at the start.
+    first, last: the same at its start and at its end.
     """
 
     start: float
     end: float
-    box: Box
-    first: Box
-    last: Box
+    whole: Enclosure
+    first: Enclosure
+    last: Enclosure
+
+    @property
+    def box(self) -> Box:
+        """Balls that hold all configurations of the piece."""
+        return self.whole.box
 
 
 class Continuation:
@@ -51,14 +56,15 @@ class Continuation:
         self.sheet = Sheet(equation, system)
         self.newton = Newton(system, Arithmetic())
         self.names = equation.space.ring.names
+        self.count = len(self.names)
         self.shortest = _SHORTEST * float(trajectory.times[-1] - trajectory.times[0])
 
     def near(self, time: float, point: Floats) -> Floats:
         """The configuration at a time, numerically, from one near by."""
         return self.newton.onto(self.trajectory.at(np.array(time)), point)
 
-    def box_at(self, start: float, end: float, near: Floats) -> Box | None:
-        """Balls with the one configuration at each time of a span; near: that in the middle, numerically."""
+    def box_at(self, start: float, end: float, near: Floats) -> Enclosure | None:
+        """Where a sheet is over a span of time; near: the configuration in the middle, numerically."""
         if not np.isfinite(near).all():
             return None
         with at_precision(BITS):
@@ -90,7 +96,7 @@ class Continuation:
                 else:
                     step = (end - start) / 2
 
-    def piece(self, start: float, end: float, first: Box) -> MotionPiece | None:
+    def piece(self, start: float, end: float, first: Enclosure) -> MotionPiece | None:
         """The piece from a configuration known by balls; None where it is not proven."""
         point = self.middle(first)
         middle = self.near((start + end) / 2, point)
@@ -98,12 +104,14 @@ class Continuation:
         if box is None:
             return None
         last = self.box_at(end, end, self.near(end, middle))
-        if last is None or not (self._holds(box, first) and self._holds(box, last)):
+        if last is None or not (box.has(first, self.count) and box.has(last, self.count)):
             return None
         return MotionPiece(start, end, box, first, last)
 
-    def on_motion(self, pieces: Sequence[MotionPiece], start: float, end: float, near: Floats) -> Box | None:
-        """Balls with the motion's configuration at each time of a span, which may be in several pieces.
+    def on_motion(
+        self, pieces: Sequence[MotionPiece], start: float, end: float, near: Floats
+    ) -> Enclosure | None:
+        """Where the motion's configuration is at each time of a span, which may be in several pieces.
 
         near: about in its middle, numerically.  None where it is not proven to be on the sheet of `pieces`.
         """
@@ -112,15 +120,11 @@ class Continuation:
         point = None if own is None else self.box_at(start, start, self.near(start, near))
         if box is None or own is None or point is None:
             return None
-        return box if self._holds(own.box, point) and self._holds(box, point) else None
+        return box if own.whole.has(point, self.count) and box.has(point, self.count) else None
 
-    def middle(self, box: Box) -> Floats:
+    def middle(self, at: Enclosure) -> Floats:
         """The middle of a box, numerically."""
-        return np.array([float(b.mid()) for b in box[: len(self.names)]])
-
-    def _holds(self, box: Box, point: Box) -> bool:
-        count = len(self.names)
-        return all(a.contains(b) for a, b in zip(box[:count], point[:count], strict=True))
+        return np.array([float(b.mid()) for b in at.box[: self.count]])
 
     def rates(self, piece: MotionPiece) -> list[arb] | None:
         """Balls around the rates of all variables over a piece; None where they are not bounded."""
@@ -157,7 +161,7 @@ class Continuation:
         if sure_sign(polynomial, piece.box):
             return
         if self._is_monotone(piece, polynomial):
-            signs = [sure_sign(polynomial, box) for box in (piece.first, piece.last)]
+            signs = [sure_sign(polynomial, at.box) for at in (piece.first, piece.last)]
             if signs[0] * signs[1] > 0:
                 return
             if signs[0] * signs[1] < 0:
@@ -195,7 +199,8 @@ class Continuation:
             middle = low + _SHARE * (high - low)
             near = self.near(middle, near)
             box = self.box_at(middle, middle, near)
-            found = 0 if box is None or not self._holds(piece.box, box) else sure_sign(polynomial, box)
+            on_it = box is not None and piece.whole.has(box, self.count)
+            found = sure_sign(polynomial, box.box) if box is not None and on_it else 0
             if not found:
                 break
             low, high = (middle, high) if found == sign else (low, middle)

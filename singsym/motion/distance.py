@@ -161,8 +161,8 @@ def clear_radius(equation: VelocityEquation, joint: Coordinates, point: Floats, 
                 label: arb(x, radius * unit)
                 for label, x, unit in zip(joint.labels, middle.tolist(), joint.units, strict=True)
             }
-        box = sheet.over(values, point)
-        return box is not None and is_surely_regular(equation, conditions, box)
+        found = sheet.over(values, point)
+        return found is not None and is_surely_regular(equation, conditions, found.box)
 
     low, high = 0.0, most
     radius = most

@@ -173,13 +173,8 @@ class _Following:
         """The motion from a configuration at its start."""
         first = self.way.near(self.start, point)
         if not np.isfinite(first).all():
-            raise MechanismError(
-                [
-                    Problem(
-                        "trajectory", "a first row that no configuration near the start has", "one that has"
-                    )
-                ]
-            )
+            given = "values in its first row that no configuration near the start has"
+            raise MechanismError([Problem("trajectory", given, "values that one has")])
         pieces: list[MotionPiece] = []
         spans: list[list[Span]] = [[] for _ in self.loci]
         for piece in self.way.pieces(first):
@@ -230,10 +225,10 @@ class _Following:
             if not sure and self.start < start and end < self.end:
                 beside = self.exact * np.array([-1.0, 1.0]) + (start, end)
                 boxes = [self.way.on_motion(pieces, t, t, self.way.near(t, near)) for t in beside.tolist()]
-                signs = [0 if box is None else sure_sign(polynomial, box) for box in boxes]
+                signs = [0 if box is None else sure_sign(polynomial, box.box) for box in boxes]
                 sure = signs[0] * signs[1] < 0
             box = self.way.on_motion(pieces, start, end, near) if sure else None
-            defects = None if box is None else certified_defects(self.equation, box, locus.bounds)
+            defects = None if box is None else certified_defects(self.equation, box.box, locus.bounds)
             kind = "met" if sure else "open"
             yield self._passage(kind, start, end, locus.label, locus.words, near, defects)
 

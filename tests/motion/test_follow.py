@@ -57,7 +57,8 @@ def test_puma_moves_its_wrist_centre_on_a_straight_line() -> None:
     """The tool point, which is the wrist centre, from one place to another while J5 goes through zero."""
     arm = load("puma560")
     linkage = numeric(arm)
-    q = linkage.configurations({f"J{k}": 0.4 for k in range(1, 7)}, ())
+    joints = dict(zip(linkage.inputs, (0.4, -0.5, 0.9, 0.4, 0.4, 0.4), strict=True))
+    q = linkage.configurations(joints, ())
     x, y, z = linkage.points(q)["tool"].tolist()
     start = at(arm, {"variables": dict(zip(linkage.names, q.tolist(), strict=True))})
     ways = {"tool.x": [x, x - 0.02], "tool.y": [y, y + 0.03], "tool.z": [z, z], "J4": [0.4, 0.4]}
@@ -205,7 +206,7 @@ def test_at_the_shell(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Non
     data = json.loads(capsys.readouterr().out)
     assert data["decided"] is True
     assert data["proven_until"] == 1
-    assert main(["follow", "slider-crank", str(way)]) == 2
+    assert main(["follow", "fourbar", str(way)]) == 2
     assert "--config" in capsys.readouterr().err
     assert main(["follow", "slider-crank", str(tmp_path / "none.csv")]) == 2
     assert "cannot be read" in capsys.readouterr().err
