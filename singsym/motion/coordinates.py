@@ -64,19 +64,19 @@ class Coordinates:
         turns = np.array([value.cosine is not None for value in self.values])
         return np.where(turns, change - 2 * np.pi * np.round(change / (2 * np.pi)), change)
 
-    def distance(self, box: Sequence[arb], other: Floats) -> arb:
-        """A ball around the distance of a point that is known by balls from these values."""
+    def farthest(self, box: Sequence[arb], other: Floats) -> float:
+        """A bound from above of the distance from these values to a point in balls; it may be infinite."""
         total = arb(0)
         for value, unit, there in zip(self.values, self.units, other.tolist(), strict=True):
             own = joint_ball(value, tuple(box))
-            if own is None:
-                return arb("nan")
+            if own is None or not own.is_finite():
+                return float("inf")
             change = own / arb(unit) - arb(there)
             if value.cosine is not None:
                 turns = round(float(change.mid()) / (2 * np.pi))
                 change -= 2 * turns * arb.pi()
-            total += change * change if not change.contains(0) else arb(0, change.abs_upper()) ** 2
-        return total.sqrt()
+            total += change.abs_upper() * change.abs_upper()
+        return float(total.sqrt().upper())
 
 
 def _side(value: JointValue) -> Polynomial | None:

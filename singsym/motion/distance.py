@@ -315,9 +315,9 @@ class _Search:
         distance, defects = self.distance(end), None
         if boxed is not None:
             with at_precision(BITS):
-                from_above = self.space.distance(boxed.box, self.here)
-            if from_above.is_finite():
-                distance = float(from_above.upper())
+                from_above = self.space.farthest(boxed.box, self.here)
+            if np.isfinite(from_above):
+                distance = float(np.nextafter(from_above, np.inf))
             else:
                 boxed = None
         if boxed is not None:

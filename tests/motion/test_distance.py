@@ -87,6 +87,13 @@ def test_no_sample_contradicts_the_bounds() -> None:
     assert near.joints["E"] == pytest.approx(-2.0 - away["E"], abs=1e-6)
 
 
+def test_a_singular_configuration_is_its_own_nearest() -> None:
+    found = crank_at(0)
+    assert found.joint["RI"].distance < 1e-9
+    assert found.joint["RI"].certified
+    assert found.clear is None
+
+
 def test_nothing_is_clear_about_a_singular_configuration() -> None:
     crank = load("slider-crank")
     equation = numeric(crank).equation
