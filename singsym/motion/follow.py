@@ -46,7 +46,7 @@ _ROUNDING = 1e-6
 class Passage:
     """A singularity on the way, or a place that is near one.
 
-    kind: "met": proven to be singular at one time from `start` to `end`; "narrow": regular, a margin is
+    kind: "met": proven to be singular at a time from `start` to `end`; "narrow": regular, a margin is
     least; "open": whether it is singular is not decided; "end": the motion is not proven to go on.
     types: certified where `types_certified`, else by numerical ranks; none for a narrow passage.
     words: what vanishes or is small; margin: the smallest singular value of the matrix that loses rank.
@@ -108,6 +108,7 @@ def follow(
 ) -> FollowedMotion:
     """Follow a trajectory of as many joints or coordinates as the mobility.
 
+    Limits and exclusions are not looked at on the way; what is proven holds where they allow the motion.
     start: a configuration near which the motion begins, as `at` gives it; needed where several have the first
     values.  narrow: margins below it are reported.
     Raises `MechanismError` for labels that are not there or too few, where no configuration or more than one
@@ -222,6 +223,7 @@ class _Following:
         for start, end, sure in _joined(spans):
             sample = points[int(np.searchsorted(times, start, side="right")) - 1]
             near = self.way.near((start + end) / 2, sample)
+            near = near if np.isfinite(near).all() else sample
             if not sure and self.start < start and end < self.end:
                 beside = self.exact * np.array([-1.0, 1.0]) + (start, end)
                 boxes = [self.way.on_motion(pieces, t, t, self.way.near(t, near)) for t in beside.tolist()]

@@ -43,6 +43,11 @@ def follow_page(name: str, found: FollowedMotion) -> Page:
         blocks.append(f"Proven: no singularity is met{span}.")
     least = ", ".join(f"{name} {values.min():.3g}" for name, values in found.margins.items())
     blocks.append(f"Least margins of {len(found.times)} samples, by smallest singular values: {least}.")
+    space = found.equation.space
+    if space.positive or space.nonnegative or space.exclusions:
+        blocks.append(
+            "Note: limits and exclusions are not looked at; what is proven holds where they allow it."
+        )
     for label in found.unwritten:
         blocks.append(f"Note: condition ({label}) is not written out: where it holds is not looked for.")
     return tuple(blocks)
