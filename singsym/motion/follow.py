@@ -111,8 +111,8 @@ def follow(
     Limits and exclusions are not looked at on the way; what is proven holds where they allow the motion.
     start: a configuration near which the motion begins, as `at` gives it; needed where several have the first
     values.  narrow: margins below it are reported.
-    Raises `MechanismError` for labels that are not there or too few, where no configuration or more than one
-    has the first values.
+    Raises `MechanismError` for labels that are not there or too few, for angles that change by more than half
+    a turn from row to row, and where no configuration or more than one has the first values.
 
     >>> from singsym.mechanism import load
     >>> turn = Trajectory.of({"J5": [0.5, -0.5], **{f"J{k}": [0.3, 0.3] for k in (1, 2, 3, 4, 6)}})
@@ -136,10 +136,16 @@ def follow_equation(
     if len(trajectory.labels) != equation.n:
         found = f"{len(trajectory.labels)} columns: {', '.join(trajectory.labels)}"
         raise MechanismError([Problem("trajectory", found, f"{equation.n} beside the time, as the mobility")])
-    angles = [drive.label for drive in system.drives if drive.is_angle]
-    smooth = trajectory.unwrapped(angles)
-    point = _first(equation, smooth, start)
-    return _Following(equation, Continuation(equation, system, smooth), narrow).result(point)
+    for drive in system.drives:
+        change = float(np.abs(np.diff(trajectory.values[drive.label])).max())
+        if drive.is_angle and change > np.pi:
+            found = f"{drive.label} changes by {np.degrees(change):.4g} degrees from one row to the next"
+            expected = (
+                "half a turn at most, so that it is clear which way: more rows, or Trajectory.unwrapped"
+            )
+            raise MechanismError([Problem("trajectory", found, expected)])
+    point = _first(equation, trajectory, start)
+    return _Following(equation, Continuation(equation, system, trajectory), narrow).result(point)
 
 
 def _first(equation: VelocityEquation, trajectory: Trajectory, start: Analysis | None) -> Floats:

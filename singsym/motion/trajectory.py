@@ -113,6 +113,6 @@ class Trajectory:
         return values, rates
 
     def unwrapped(self, labels: Sequence[str]) -> Trajectory:
-        """The same with these angles going the shorter way from row to row."""
+        """The same with these angles going the shorter way from row to row, as those of atan2 are meant."""
         pairs = self.values.items()
         return Trajectory(self.times, {k: np.unwrap(v) if k in labels else v for k, v in pairs})
