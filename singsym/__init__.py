@@ -64,8 +64,13 @@ if TYPE_CHECKING:
         load,
         loads,
     )
+    from singsym.motion.distance import NearSingularity, SingularityDistance, singularity_distance
+    from singsym.motion.follow import FollowedMotion, Passage, follow, follow_equation
+    from singsym.motion.numeric import NumericLinkage, numeric, numeric_equation
+    from singsym.motion.trajectory import Trajectory
     from singsym.output.figures.figure import plot_configuration, plot_mechanism
     from singsym.output.figures.style import Picture
+    from singsym.output.motion.follow_page import plot_margins
     from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
     from singsym.polynomials.ring import AlgebraicConstant
     from singsym.varieties.constructible import ConstructibleSet
@@ -102,8 +107,13 @@ _HOMES = {
         "Choice Exclusion Joint JointKind JointRate Limit Link Mechanism MechanismError Parameter "
         "PointVelocity Problem Space Twist check define dumps library load loads"
     ),
+    "singsym.motion.distance": "NearSingularity SingularityDistance singularity_distance",
+    "singsym.motion.follow": "FollowedMotion Passage follow follow_equation",
+    "singsym.motion.numeric": "NumericLinkage numeric numeric_equation",
+    "singsym.motion.trajectory": "Trajectory",
     "singsym.output.figures.figure": "plot_configuration plot_mechanism",
     "singsym.output.figures.style": "Picture",
+    "singsym.output.motion.follow_page": "plot_margins",
     "singsym.polynomials": "Polynomial PolynomialMatrix Ring",
     "singsym.polynomials.ring": "AlgebraicConstant",
     "singsym.varieties.constructible": "ConstructibleSet",
@@ -138,6 +148,7 @@ __all__ = [
     "Exclusion",
     "Extent",
     "Factor",
+    "FollowedMotion",
     "Given",
     "Ideal",
     "Interrupted",
@@ -156,7 +167,10 @@ __all__ = [
     "MechanismError",
     "Mobility",
     "Motion",
+    "NearSingularity",
+    "NumericLinkage",
     "Parameter",
+    "Passage",
     "Picture",
     "Piece",
     "PointVelocity",
@@ -169,12 +183,14 @@ __all__ = [
     "RedundantChain",
     "Ring",
     "SingularityClass",
+    "SingularityDistance",
     "SingularityType",
     "Solution",
     "SolutionPiece",
     "Space",
     "SpacePiece",
     "SymbolicSpace",
+    "Trajectory",
     "Twist",
     "Undecided",
     "VelocityEquation",
@@ -191,16 +207,22 @@ __all__ = [
     "dumps",
     "engines",
     "feasible_classes",
+    "follow",
+    "follow_equation",
     "from_sympy",
     "library",
     "load",
     "loads",
     "loop_closure",
+    "numeric",
+    "numeric_equation",
     "plot_configuration",
+    "plot_margins",
     "plot_mechanism",
     "real_curve",
     "reduce",
     "redundant_chain",
+    "singularity_distance",
     "solve",
     "solve_equation",
     "use_seed",

@@ -94,6 +94,10 @@ def parser() -> argparse.ArgumentParser:
     add("solve", "singularities", "the solution sets of some conditions", *whole, _labels)
     words = "ranks, types and null motions of one configuration"
     add("at", "singularities", words, _mechanism, _configuration, short)
+    words = "L, the conditions and the assemblies as code of their own, for a controller"
+    add("export", "motion", words, _mechanism, _language)
+    words = "the singularities that a trajectory meets or narrowly passes"
+    add("follow", "motion", words, _mechanism, _trajectory, short)
     add(
         "classes",
         "singularities",
@@ -298,6 +302,34 @@ def _configuration(command: argparse.ArgumentParser) -> None:
         help="TOML with [joints] A = '30 deg', [points] B = [0.3, 0.95], [variables] Bx = 0.3",
     )
     command.add_argument("--tolerance", type=_positive, help="singular values below this count as zero")
+    command.add_argument(
+        "--distance",
+        action="store_true",
+        help="how far away the nearest singularity of each type is, and which way leads away",
+    )
+
+
+def _trajectory(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "trajectory",
+        metavar="FILE",
+        help="comma-separated values with a header: t, then joints (radians, or as 'A deg') or "
+        "coordinates as C.x, as many as the mobility",
+    )
+    command.add_argument(
+        "--config", metavar="FILE", help="a configuration to start near, as for `at`: of several, which one"
+    )
+    command.add_argument("-o", "--output", metavar="FILE", help="a picture of the margins to write")
+
+
+def _language(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--to",
+        dest="language",
+        default="python",
+        choices=("python", "c"),
+        help="Python with its module math, or C99 (default: %(default)s)",
+    )
 
 
 def _mobility(command: argparse.ArgumentParser) -> None:

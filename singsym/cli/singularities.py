@@ -237,21 +237,30 @@ def run_at(chosen: argparse.Namespace) -> int:
 
     mechanism = read(chosen)
     placed(mechanism, chosen.formulation)
+    distance = None
     try:
         given = Given.from_file(chosen.config)
         found = at(
             mechanism, given, formulation=chosen.formulation, tolerance=chosen.tolerance, file=chosen.config
         )
+        if chosen.distance:
+            from singsym.motion.distance import singularity_distance
+
+            distance = singularity_distance(mechanism, found, formulation=chosen.formulation)
     except MechanismError as error:
         raise UserError(complaint(error.problems)) from None
     except OSError as error:
         raise UserError(f"{chosen.config} cannot be read: {error.strerror}") from None
     if chosen.format == "json":
+        from singsym.output.motion.distance_page import distance_data
         from singsym.output.plain_data import analysis_data
 
-        emit_data(analysis_data(mechanism.name, found))
+        more = {} if distance is None else {"nearest": distance_data(distance)}
+        emit_data({**analysis_data(mechanism.name, found), **more})
     else:
+        from singsym.output.motion.distance_page import distance_page
         from singsym.output.text import analysis_page
 
-        emit_page(analysis_page(mechanism.name, found))
+        more_blocks = () if distance is None else distance_page(distance)
+        emit_page((*analysis_page(mechanism.name, found), *more_blocks))
     return UNDECIDED if found.undecided else 0

@@ -34,12 +34,13 @@ class Scaled:
 
     units: what each column was multiplied by, so that rates = scaled rates * units; length: the
     characteristic length, the root mean square distance of the named points from their centre.
+    Of many configurations (B, variables) the arrays have a first axis of these, and the length is an array.
     """
 
     equation: VelocityEquation
     matrix: Matrix
     units: Floats
-    length: float
+    length: Any
 
     def columns(self, name: str) -> list[int]:
         """The places of the columns of L, L_I, L_O or L_p."""
@@ -47,11 +48,13 @@ class Scaled:
 
     def submatrices(self) -> dict[str, Matrix]:
         """L, L_I, L_O and L_p."""
-        return {name: self.matrix[:, self.columns(name)] for name in _DROPPED}
+        return {name: self.matrix[..., self.columns(name)] for name in _DROPPED}
 
 
 def scaled_matrix(equation: VelocityEquation, point: Sequence[Any] | Floats) -> Scaled:
     """L at a point, of floats or of mpmath numbers, with rows and columns scaled by their kind.
+
+    point: of floats it may be an array of many points, one a row.
 
     Velocities are over the characteristic length, and taken at the centre of the named points; a slide has a
     unit direction and the length as its unit, a rotation the radian.  No row or column is scaled by its own
@@ -62,47 +65,62 @@ def scaled_matrix(equation: VelocityEquation, point: Sequence[Any] | Floats) -> 
     import numpy as np
 
     matrix = _evaluated(equation, point)
-    here = point.tolist() if isinstance(point, np.ndarray) else list(point)
-    places = [[float(p.evaluate(here)) for p in v] for v in equation.space.points.values()]
+    many, width = matrix.shape[:-2], matrix.shape[-1]
+    places = _places(equation, point)
     if equation.space.formulation == "given":
-        whole = float(np.linalg.norm(matrix.astype(np.float64), 2)) if matrix.size else 0.0
-        return Scaled(equation, matrix / (whole or 1.0), np.ones(matrix.shape[1]), _spread(places) or 1.0)
-    slides = [_is_slide(equation, j) for j in range(len(equation.columns))]
+        whole = _ones_for_zeros(np.linalg.norm(matrix.astype(np.float64), 2, axis=(-2, -1)))
+        pure = matrix / np.asarray(whole)[..., None, None]
+        return Scaled(equation, pure, np.ones((*many, width)), _number(_ones_for_zeros(_spread(places))))
+    slides = [_is_slide(equation, j) for j in range(width)]
     blocks = _loops(equation)
     for angular, linear in blocks:
-        if angular and linear and places:
-            _move(matrix, angular, linear, np.mean(places, axis=0))
-    length = _spread(places) or _reach(equation, matrix, slides) or 1.0
-    units = np.where(slides, length, 1.0)
+        if angular and linear and places.size:
+            _move(matrix, angular, linear, np.mean(places, axis=-2))
+    length = _spread(places)
+    length = np.where(length == 0, _reach(equation, matrix, slides), length)
+    length = _ones_for_zeros(length)
+    units = np.where(slides, length[..., None], 1.0)
     for j in np.flatnonzero(slides):
-        sizes = [_norm(matrix[linear, j]) for _, linear in blocks]
-        units[j] /= max(sizes, default=0.0) or 1.0
-    rows = np.ones(len(equation.rows))
+        sizes = [_norm(matrix[..., linear, j]) for _, linear in blocks]
+        if sizes:
+            units[..., j] /= _ones_for_zeros(np.max(sizes, axis=0))
+    rows = np.ones((*many, len(equation.rows)))
     for i, name in enumerate(equation.rows):
         followed = _followed_joint(equation, i)
         if followed is not None:
-            rows[i] = units[i] = units[followed]
+            rows[..., i] = units[..., i] = units[..., followed]
         elif name.rpartition(" ")[2] in _LINEAR and name.startswith(("output", "loop")):
-            rows[i] = length
+            rows[..., i] = length
             if name.startswith("output"):
-                units[i] = length
+                units[..., i] = length
         elif name.startswith("coupling"):
-            rows[i] = max(units[j] for j in np.flatnonzero(matrix[i]))
+            terms = [j for j in range(width) if equation.matrix[i, j]]
+            rows[..., i] = units[..., terms].max(axis=-1)
         elif name.startswith("no idle spin"):
-            rows[i] = _norm(matrix[i]) or 1.0
-    return Scaled(equation, matrix * units / rows[:, None], units, length)
+            rows[..., i] = _ones_for_zeros(_norm(matrix[..., i, :]))
+    return Scaled(equation, matrix * units[..., None, :] / rows[..., :, None], units, _number(length))
 
 
 def _evaluated(equation: VelocityEquation, point: Sequence[Any] | Floats) -> Matrix:
     import numpy as np
 
-    from singsym.polynomials.compiled_map import numerical_matrix
-
     if isinstance(point, np.ndarray):
-        return numerical_matrix(equation.matrix, point)
+        return equation.compiled.values(point).reshape(*point.shape[:-1], *equation.matrix.shape)
     zero = point[0] * 0 if point else 0.0
     rows = [[e + zero for e in row] for row in equation.matrix.evaluate(point)]
     return np.array(rows, dtype=object).reshape(equation.matrix.shape)
+
+
+def _places(equation: VelocityEquation, point: Sequence[Any] | Floats) -> Floats:
+    """The coordinates of the named points, with the last two axes of points and coordinates."""
+    import numpy as np
+
+    named = list(equation.space.points.values())
+    if isinstance(point, np.ndarray):
+        many = point.shape[:-1]
+        return equation.compiled_points.values(point).reshape(*many, len(named), -1 if named else 0)
+    here = list(point)
+    return np.array([[float(p.evaluate(here)) for p in place] for place in named], dtype=np.float64)
 
 
 def _loops(equation: VelocityEquation) -> list[tuple[list[int], list[int]]]:
@@ -139,34 +157,55 @@ def _followed_joint(equation: VelocityEquation, i: int) -> int | None:
 
 def _move(matrix: Matrix, angular: list[int], linear: list[int], centre: Floats) -> None:
     """Take the velocities of a loop at another point: v + w x c."""
+    at = centre[..., None, :]
     if len(angular) == 1:
-        spin = matrix[angular[0]]
-        matrix[linear[0]] = matrix[linear[0]] - spin * centre[1]
-        matrix[linear[1]] = matrix[linear[1]] + spin * centre[0]
+        spin = matrix[..., angular[0], :]
+        matrix[..., linear[0], :] = matrix[..., linear[0], :] - spin * at[..., 1]
+        matrix[..., linear[1], :] = matrix[..., linear[1], :] + spin * at[..., 0]
         return
     for k in range(3):
         first, second = (k + 1) % 3, (k + 2) % 3
-        turned = matrix[angular[first]] * centre[second] - matrix[angular[second]] * centre[first]
-        matrix[linear[k]] = matrix[linear[k]] + turned
+        turned = (
+            matrix[..., angular[first], :] * at[..., second]
+            - matrix[..., angular[second], :] * at[..., first]
+        )
+        matrix[..., linear[k], :] = matrix[..., linear[k], :] + turned
 
 
-def _reach(equation: VelocityEquation, matrix: Matrix, slides: Sequence[bool]) -> float:
+def _reach(equation: VelocityEquation, matrix: Matrix, slides: Sequence[bool]) -> Floats:
     """The largest velocity that a unit rotation gives, where the points are all in one place."""
+    import numpy as np
+
     rows = [i for i, name in enumerate(equation.rows) if name.rpartition(" ")[2] in _LINEAR]
     turns = [j for j, c in enumerate(equation.columns) if c.role != "output" and not slides[j]]
-    return max((_norm(matrix[rows, j]) for j in turns), default=0.0)
+    sizes = [_norm(matrix[..., rows, j]) for j in turns]
+    return np.max(sizes, axis=0) if sizes else np.zeros(matrix.shape[:-2])
 
 
-def _spread(places: Sequence[Sequence[float]]) -> float:
+def _spread(places: Floats) -> Floats:
     """The root mean square distance of points from their centre; 0 where they differ by rounding only."""
     import numpy as np
 
-    if not places:
-        return 0.0
-    offsets = np.array(places) - np.mean(places, axis=0)
-    spread = float(np.sqrt((offsets**2).sum(axis=1).mean()))
-    return spread if spread > 1e-12 * float(np.abs(places).max()) else 0.0
+    if not places.size:
+        return np.zeros(places.shape[:-2])
+    offsets = places - places.mean(axis=-2, keepdims=True)
+    spread = np.sqrt((offsets**2).sum(axis=-1).mean(axis=-1))
+    return np.where(spread > 1e-12 * np.abs(places).max(axis=(-2, -1)), spread, 0.0)
 
 
-def _norm(entries: Matrix) -> float:
-    return float((entries**2).sum() ** 0.5) if entries.size else 0.0
+def _norm(entries: Matrix) -> Floats:
+    """Along the last axis."""
+    import numpy as np
+
+    return np.asarray(np.sqrt((entries.astype(np.float64) ** 2).sum(axis=-1)))
+
+
+def _ones_for_zeros(sizes: Floats) -> Floats:
+    import numpy as np
+
+    return np.where(sizes == 0, 1.0, sizes)
+
+
+def _number(length: Floats) -> Any:
+    """A float where there is one configuration."""
+    return length if length.ndim else float(length)

@@ -26,6 +26,7 @@ from singsym.polynomials import Polynomial, PolynomialMatrix
 
 if TYPE_CHECKING:
     from singsym.conditions.conditions import Conditions
+    from singsym.polynomials.compiled_map import CompiledMap
 
 Role = Literal["output", "input", "passive"]
 
@@ -85,6 +86,27 @@ class VelocityEquation:
     def L_p(self) -> PolynomialMatrix:
         """L without input and output columns."""
         return self._without("input", "output")
+
+    @cached_property
+    def compiled(self) -> CompiledMap:
+        """The entries of L, row by row, as a map in doubles."""
+        from singsym.polynomials.compiled_map import CompiledMap
+
+        return CompiledMap([e for row in self.matrix.rows for e in row], self.space.ring)
+
+    @cached_property
+    def compiled_points(self) -> CompiledMap:
+        """The coordinates of the named points, one point after the other, as a map in doubles."""
+        from singsym.polynomials.compiled_map import CompiledMap
+
+        return CompiledMap([p for place in self.space.points.values() for p in place], self.space.ring)
+
+    @cached_property
+    def compiled_loops(self) -> CompiledMap:
+        """The loop equations and the relations of the ring's constants, as a map in doubles."""
+        from singsym.polynomials.compiled_map import CompiledMap
+
+        return CompiledMap((*self.space.equations, *self.space.ring.relations), self.space.ring)
 
     @cached_property
     def conditions(self) -> Conditions:

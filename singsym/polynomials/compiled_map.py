@@ -94,6 +94,10 @@ class CompiledMap:
         self.scales = np.ones(self.count) if scales is None else np.array(scales, dtype=np.float64)
         self._given_sizes = sizes
 
+    def rescaled(self, sizes: Floats, scales: Floats) -> CompiledMap:
+        """The same polynomials with other sizes of the variables and other scales."""
+        return CompiledMap(self.polynomials, self.ring, sizes, scales)
+
     @classmethod
     def balanced(
         cls, polynomials: Sequence[Polynomial], ring: Ring, sizes: Sequence[float] | None = None

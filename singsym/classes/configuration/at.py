@@ -104,6 +104,7 @@ def at(
     formulation: str = "auto",
     tolerance: float | None = None,
     file: str = "",
+    near: Analysis | None = None,
 ) -> Analysis:
     """Examine the configuration of a mechanism with these joint values, points or variables.
 
@@ -111,6 +112,8 @@ def at(
     loop equations exactly, else the configuration nearest to them, with numerical ranks: in double precision,
     or as precisely as the values are written where that is more.
     tolerance: singular values below it count as zero, by default by how well the values fit the loops.
+    near: an earlier analysis of the same mechanism.  The configuration is then looked for from there alone,
+    on the same assembly mode where the step is small, numerically, and many times faster.
     Raises `MechanismError` for names that are not there, or where no configuration is near.
 
     >>> from singsym.mechanism import load
@@ -118,8 +121,8 @@ def at(
     >>> found.exact, str(found.types)
     (True, 'regular')
     """
-    equation = velocity_equation(mechanism, formulation)
-    return at_equation(equation, given, tolerance=tolerance, file=file)
+    equation = velocity_equation(mechanism, formulation) if near is None else near.equation
+    return at_equation(equation, given, tolerance=tolerance, file=file, near=near)
 
 
 def at_equation(
@@ -128,10 +131,14 @@ def at_equation(
     *,
     tolerance: float | None = None,
     file: str = "",
+    near: Analysis | None = None,
 ) -> Analysis:
     """The same for a velocity equation."""
     read = given if isinstance(given, Given) else Given.of(given, file)
     wanted = targets(read, equation, file)
+    if near is not None:
+        start = [near.values[name] for name in equation.space.ring.names]
+        return _numerical_analysis(equation, wanted, read.digits, tolerance, file, start)
     values = exact_values(equation, wanted)
     kernels = None if values is None else exact_kernels(equation, values)
     if values is not None and kernels is not None:
@@ -205,12 +212,13 @@ def _numerical_analysis(
     digits: int,
     tolerance: float | None,
     file: str,
+    near: Sequence[Any] | None = None,
 ) -> Analysis:
-    """Ranks by singular values, of the configuration nearest to the targets."""
+    """Ranks by singular values, of the configuration nearest to the targets; near: where alone to start."""
     import numpy as np
 
     with _precision(2 * digits if digits > DOUBLE_DIGITS else digits):
-        located = locate(equation, wanted, digits > DOUBLE_DIGITS)
+        located = locate(equation, wanted, digits > DOUBLE_DIGITS, near=near)
         if located is None or located.misfit > 0.5:
             nothing = "values near which no configuration was reached"
             expected = "joint values, points or variables of a configuration"

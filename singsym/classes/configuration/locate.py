@@ -6,7 +6,7 @@ steps: Ortega, Rheinboldt, Iterative Solution of Nonlinear Equations in Several 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -107,16 +107,13 @@ class _Problem:
     def __init__(self, equation: VelocityEquation, wanted: Sequence[Target]) -> None:
         import numpy as np
 
-        from singsym.polynomials.compiled_map import CompiledMap
-
-        ring = equation.space.ring
+        ring, loops = equation.space.ring, equation.compiled_loops
         self.constants = {ring.index(c.name): c.expression for c in ring.constants}
         self.free = [i for i in range(len(ring.names)) if i not in self.constants]
         self.targets = _Targets(wanted, ring, sizes_of_coordinates(equation))
         self.sizes = self.targets.sizes
-        equations = (*equation.space.equations, *ring.relations)
-        terms = CompiledMap(equations, ring).magnitudes(np.zeros(len(self.sizes)), self.sizes)
-        self.loops = CompiledMap(equations, ring, self.sizes, _positive(terms))
+        terms = loops.magnitudes(np.zeros(len(self.sizes)), self.sizes)
+        self.loops = loops.rescaled(self.sizes, _positive(terms))
         self.both = _Together(self.loops, self.targets)
 
     def start(self) -> Floats:
@@ -153,24 +150,25 @@ class _Problem:
 
 
 def locate(
-    equation: VelocityEquation, wanted: Sequence[Target], more: bool = False, seed: int = 0
+    equation: VelocityEquation,
+    wanted: Sequence[Target],
+    more: bool = False,
+    seed: int = 0,
+    near: Sequence[Any] | None = None,
 ) -> Located | None:
     """The configuration nearest to the targets, from several starts; None where none was reached.
 
     Of those that are about as near, a feasible one.  more: whether coordinates are wanted as mpmath numbers
-    in the precision of `mpmath.mp`; they are floats where none settle.
+    in the precision of `mpmath.mp`; they are floats where none settle.  near: a point to start from, and from
+    there alone.
     """
     import numpy as np
 
     from singsym.polynomials.gauss_newton import project
 
     problem = _Problem(equation, wanted)
-    random = np.random.default_rng(seed)
     ends: list[tuple[float, Floats, Floats]] = []
-    for attempt in range(_STARTS):
-        start = problem.start()
-        draw = random.normal(size=len(problem.free)) * (0.3, 1.0, 2.0)[attempt % 3]
-        start[problem.free] = draw * problem.sizes[problem.free]
+    for start in _starts(problem, seed) if near is None else [np.array(near, dtype=float)]:
         given = problem.nearest(problem.targets, problem.nearest(problem.both, start))
         end = project(problem.loops, given, problem.free, accuracy=1e-9, cut=_SMALL)
         if end is not None:
@@ -199,16 +197,32 @@ def locate(
     return (_refined(problem, found) or found) if more else found
 
 
+def _starts(problem: _Problem, seed: int) -> Iterator[Floats]:
+    """Random points, of three spreads in turn."""
+    import numpy as np
+
+    random = np.random.default_rng(seed)
+    for attempt in range(_STARTS):
+        start = problem.start()
+        draw = random.normal(size=len(problem.free)) * (0.3, 1.0, 2.0)[attempt % 3]
+        start[problem.free] = draw * problem.sizes[problem.free]
+        yield start
+
+
 def is_feasible(equation: VelocityEquation, point: Floats, sizes: Floats) -> bool:
     """Whether limits and exclusions allow a point, in floats, up to 1e-9 of what their terms can be.
 
     sizes: of the coordinates.
     """
+    import numpy as np
+
     from singsym.polynomials.compiled_map import CompiledMap
 
     space = equation.space
 
     def relative(polynomials: Sequence[Polynomial]) -> Floats:
+        if not polynomials:
+            return np.zeros(0)
         system = CompiledMap(polynomials, space.ring)
         return system.values(point) / _positive(system.magnitudes(point, sizes))
 

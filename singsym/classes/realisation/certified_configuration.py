@@ -44,7 +44,7 @@ def configuration(point: RealPoint | BoxPoint, names: Names) -> Configuration:
         }
         joints = {}
         for name, value in names.joints.items():
-            found = _joint(value, box)
+            found = joint_ball(value, box)
             if found is not None:
                 joints[name] = found
         tables = [_decimals(table) for table in (coordinates, points, joints)]
@@ -52,7 +52,8 @@ def configuration(point: RealPoint | BoxPoint, names: Names) -> Configuration:
     return Configuration(tables[0][0], tables[1][0], tables[2][0], f"{radius:.1e}")
 
 
-def _joint(value: JointValue, box: tuple[arb, ...]) -> arb | None:
+def joint_ball(value: JointValue, box: tuple[arb, ...]) -> arb | None:
+    """A ball around a joint's value over balls of the coordinates; None where it is not told."""
     if value.length is not None:
         return evaluate(value.length, box)
     if value.square is not None:

@@ -127,3 +127,20 @@ def test_equations_of_ones_own():
     )
     assert at_equation(own, {"variables": {"c": 1, "s": 0}}).types == T.RI | T.IO
     assert not at_equation(own, {"variables": {"c": "3/5", "s": "4/5"}}).types
+
+
+def test_near_an_earlier_configuration_its_assembly_mode_is_kept() -> None:
+    """A step of a crank; the two assemblies over the same values are on both sides of the line BD."""
+    five_bar = load("five-bar")
+    ends = []
+    for C in ((4.755, 0.893), (-0.397, -1.131)):
+        given = {"points": {"B": [1.755, 0.959], "C": C, "D": [2.602, -1.197]}}
+        start = at(five_bar, given, tolerance=1e-3)
+        angles = {"A": start.joints["A"] + 0.02, "E": start.joints["E"]}
+        found = at(five_bar, {"joints": angles}, near=start)
+        assert found.located is not None
+        assert found.located.misfit < 1e-9
+        assert max(abs(a - b) for a, b in zip(found.points["C"], start.points["C"], strict=True)) < 0.1
+        assert not found.remarks
+        ends.append(found.points["C"])
+    assert abs(ends[1][0] - ends[0][0]) + abs(ends[1][1] - ends[0][1]) > 1
