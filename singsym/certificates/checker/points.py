@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from flint import arb, ctx, fmpq, fmpq_mpoly, fmpq_poly
+from flint import arb, ctx, fmpq_mpoly, fmpq_poly
 
 from singsym.certificates.checker.polynomials import Rejected, polynomial, rational, remainder
 from singsym.certificates.checker.ranks import Defects, is_possible, types_of
@@ -26,20 +26,13 @@ def points(at: RealSet, about: Statement, line: Mapping[str, Any]) -> dict[str, 
     Powers of m(u) and of x - r(u) have remainder zero by the equations, so that each point of the set is r
     of a root; the roots at which an equation does not vanish, or a unit does, are left out.
     """
-    minimal = _univariate(listed(line, "minimal", str))
-    if minimal.degree() < 1 or minimal.gcd(minimal.derivative()).degree() > 0:
-        raise Rejected("minimal: expected a polynomial of positive degree without double roots")
-    given = line.get("coordinates")
-    if not isinstance(given, dict) or set(given) != set(at.variables):
-        raise Rejected(f"coordinates: expected one for each of {list(at.variables)}")
-    coordinates = {name: _univariate(given[name]) % minimal for name in at.variables}
-    form = polynomial(line.get("form", ""), at.context)
-    _check_all(at, form, minimal, coordinates, max(whole_number(line, "power"), 1))
+    form, minimal, coordinates = chart_of(at, line)
+    check_all(at, form, minimal, coordinates, max(whole_number(line, "power"), 1))
     chart = _Chart(at, minimal, coordinates)
     if (chart.value(form, minimal) - fmpq_poly([0, 1])) % minimal:
         raise Rejected("form: it is not the root at its points")
     there = minimal
-    for equation in at.equations:
+    for equation in at.generators:
         there = there.gcd(chart.value(equation, there))
     for unit in at.units:
         there = there // there.gcd(chart.value(unit, there))
@@ -49,6 +42,18 @@ def points(at: RealSet, about: Statement, line: Mapping[str, Any]) -> dict[str, 
             types = types_of(_defects(chart, about, factor))
             found[types] = found.get(types, 0) + roots
     return found
+
+
+def chart_of(at: RealSet, line: Mapping[str, Any]) -> tuple[fmpq_mpoly, fmpq_poly, dict[str, fmpq_poly]]:
+    """The polynomials `form`, `minimal` and `coordinates` of a line; raises `Rejected`."""
+    minimal = _univariate(listed(line, "minimal", str))
+    if minimal.degree() < 1 or minimal.gcd(minimal.derivative()).degree() > 0:
+        raise Rejected("minimal: expected a polynomial of positive degree without double roots")
+    given = line.get("coordinates")
+    if not isinstance(given, dict) or set(given) != set(at.variables):
+        raise Rejected(f"coordinates: expected one for each of {list(at.variables)}")
+    coordinates = {name: _univariate(given[name]) % minimal for name in at.variables}
+    return polynomial(line.get("form", ""), at.context), minimal, coordinates
 
 
 def _univariate(texts: Any) -> fmpq_poly:
@@ -62,7 +67,7 @@ def _factors(f: fmpq_poly) -> list[fmpq_poly]:
     return [fmpq_poly(factor) for factor, _ in f.numer().factor()[1]] if f.degree() > 0 else []
 
 
-def _check_all(
+def check_all(
     at: RealSet, form: fmpq_mpoly, minimal: fmpq_poly, coordinates: Mapping[str, fmpq_poly], power: int
 ) -> None:
     """Whether each complex point of the equations is one of the chart's; raises `Rejected`."""
@@ -116,7 +121,7 @@ class _Chart:
         bits = 64
         while bits <= MOST_BITS:
             with ctx.workprec(bits):
-                roots = _real_roots(factor)
+                roots = real_roots(factor)
                 decided = [[_sign(value, root) for value in signs] for root in roots]
             if not any(0 in own for own in decided):
                 return sum(all(sign > 0 for sign in own) for own in decided)
@@ -124,21 +129,28 @@ class _Chart:
         raise Rejected(f"a sign at a point is not seen with {MOST_BITS} bits")
 
 
-def _real_roots(factor: fmpq_poly) -> list[arb]:
+def real_roots(factor: fmpq_poly) -> list[arb]:
+    """The real roots of a polynomial without double roots, in balls of the precision that holds."""
     roots: Any = factor.numer().complex_roots()
     return [root.real for root, _ in roots if root.imag == 0]
 
 
-def _sign(value: fmpq_poly, root: arb) -> int:
-    """The sign of a value at a root, 0 where it is not seen."""
+def ball(value: fmpq_poly, root: arb) -> arb:
+    """A ball around the value at a root."""
     total = arb(0)
     for c in reversed(value.coeffs()):
         total = total * root + arb(c)
+    return total
+
+
+def _sign(value: fmpq_poly, root: arb) -> int:
+    """The sign of a value at a root, 0 where it is not seen."""
+    total = ball(value, root)
     return 1 if total > 0 else -1 if total < 0 else 0
 
 
 def _defects(chart: _Chart, about: Statement, factor: fmpq_poly) -> Defects:
-    """The defects at the roots of an irreducible polynomial, which are all alike."""
+    """The defects at the roots of an irreducible polynomial, one of them real, which are all alike."""
     at = chart.at
     values = [[chart.value(entry, factor) for entry in row] for row in at.matrix]
     found = []
@@ -153,26 +165,53 @@ def _defects(chart: _Chart, about: Statement, factor: fmpq_poly) -> Defects:
 
 
 def _rank(rows: Sequence[Sequence[fmpq_poly]], factor: fmpq_poly) -> int:
-    """The rank of a matrix over the field Q[u]/(factor), by Gaussian elimination."""
-    left = [list(row) for row in rows]
-    rank = 0
-    for j in range(len(left[0]) if left else 0):
-        k = next((i for i in range(rank, len(left)) if left[i][j]), None)
-        if k is None:
-            continue
-        left[rank], left[k] = left[k], left[rank]
-        pivot = left[rank]
-        inverse = _inverse(pivot[j], factor)
-        for row in left[rank + 1 :]:
-            if row[j]:
-                scale = (row[j] * inverse) % factor
-                row[:] = [(a - scale * b) % factor for a, b in zip(row, pivot, strict=True)]
-        rank += 1
-    return rank
+    """The rank over the field Q[u]/(factor): that of balls at a root, where the bordering minors vanish."""
+    bits = 256
+    while bits <= MOST_BITS:
+        with ctx.workprec(bits):
+            own, columns = _pivots(rows, real_roots(factor)[0])
+        others = [i for i in range(len(rows)) if i not in own]
+        left = [j for j in range(len(rows[0]) if rows else 0) if j not in columns]
+        borders = (([*own, i], [*columns, j]) for i in others for j in left)
+        if all(not _minor(rows, r, c, factor) for r, c in borders):
+            return len(own)
+        bits *= 4
+    raise Rejected("the rank of a matrix at a point is not seen")
 
 
-def _inverse(value: fmpq_poly, factor: fmpq_poly) -> fmpq_poly:
-    divisor, inverse, _ = value.xgcd(factor)
-    if divisor.degree() != 0:
-        raise Rejected("a factor is not irreducible")
-    return inverse * (1 / fmpq(divisor[0]))
+def _pivots(rows: Sequence[Sequence[fmpq_poly]], root: arb) -> tuple[list[int], list[int]]:
+    """Rows and columns of a minor that does not vanish at a root: the pivots of balls without zero."""
+    left = [[ball(value, root) for value in row] for row in rows]
+    own: list[int] = []
+    columns: list[int] = []
+    while True:
+        free = [
+            (i, j)
+            for i, row in enumerate(left)
+            for j, entry in enumerate(row)
+            if i not in own and j not in columns and not entry.contains(0)
+        ]
+        if not free:
+            return own, columns
+        i, j = max(free, key=lambda place: float(abs(left[place[0]][place[1]]).mid()))
+        for k, row in enumerate(left):
+            if k != i and k not in own:
+                scale = row[j] / left[i][j]
+                left[k] = [a - scale * b for a, b in zip(row, left[i], strict=True)]
+        own.append(i)
+        columns.append(j)
+
+
+def _minor(
+    rows: Sequence[Sequence[fmpq_poly]], own: Sequence[int], columns: Sequence[int], factor: fmpq_poly
+) -> fmpq_poly:
+    """A minor modulo a polynomial, expanded by its first row."""
+    if not own:
+        return fmpq_poly([1])
+    total = fmpq_poly([])
+    for k, j in enumerate(columns):
+        entry = rows[own[0]][j]
+        if entry:
+            rest = _minor(rows, own[1:], [*columns[:k], *columns[k + 1 :]], factor)
+            total = total + entry * rest * (-1) ** k
+    return total % factor

@@ -39,7 +39,7 @@ def rational(text: str) -> fmpq:
     if not _NUMBER.match(body):
         raise Rejected(f"expected a rational as -3/2, got {text!r}")
     p, _, q = body.partition("/")
-    value = fmpq(int(p), int(q or 1))
+    value = fmpq(fmpz(p), fmpz(q or 1))
     return -value if text.startswith("-") else value
 
 

@@ -44,7 +44,7 @@ def is_unit(f: fmpq_mpoly, at: RealSet, line: Line) -> bool:
 def split(at: RealSet, line: Line) -> tuple[RealSet, ...]:
     """Where `by` vanishes, and where it does not."""
     by = polynomial(line.get("by", ""), at.context)
-    return replace(at, equations=(*at.equations, by)), replace(at, units=(*at.units, by))
+    return at.within([by]), replace(at, units=(*at.units, by))
 
 
 def derive(at: RealSet, line: Line) -> tuple[RealSet, ...]:
@@ -80,7 +80,7 @@ def cancel(at: RealSet, line: Line) -> tuple[RealSet, ...]:
         product = remainder(product * f, at.equations)
     if product:
         raise Rejected("the product is not seen to be in the ideal")
-    return (replace(at, equations=(*at.equations, f)),)
+    return (at.within([f]),)
 
 
 def squares(at: RealSet, line: Line) -> tuple[RealSet, ...]:
@@ -105,7 +105,7 @@ def squares(at: RealSet, line: Line) -> tuple[RealSet, ...]:
         total = total + weight * root * root * scale
     if remainder(total, at.equations):
         raise Rejected("the sum is not seen to be in the ideal")
-    return (replace(at, equations=(*at.equations, *found)),)
+    return (at.within(found),)
 
 
 def pivot(at: RealSet, line: Line) -> tuple[RealSet, ...]:

@@ -6,7 +6,7 @@ Source: the velocity equation of Zlatanov, Fenton, Benhabib, Mech. Mach. Theory 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx
@@ -23,6 +23,7 @@ _WITHOUT = {"L": (), "L_p": ("input", "output"), "L_I": ("input",), "L_O": ("out
 class RealSet:
     """Real points where all `equations` vanish, no unit vanishes, and the inequalities hold.
 
+    generators: of the ideal of the equations, as few as are known.
     units: polynomials that vanish nowhere on the set; positive, nonnegative: their signs are as they say.
     matrix, roles: what is left of the velocity equation, `eliminated` rows and columns less than at the
     start.
@@ -30,6 +31,7 @@ class RealSet:
 
     context: fmpq_mpoly_ctx
     equations: tuple[fmpq_mpoly, ...]
+    generators: tuple[fmpq_mpoly, ...]
     units: tuple[fmpq_mpoly, ...]
     positive: tuple[fmpq_mpoly, ...]
     nonnegative: tuple[fmpq_mpoly, ...]
@@ -41,6 +43,10 @@ class RealSet:
     def variables(self) -> tuple[str, ...]:
         """The names of the coordinates."""
         return tuple(self.context.names())
+
+    def within(self, more: Sequence[fmpq_mpoly]) -> RealSet:
+        """The part where more polynomials vanish."""
+        return replace(self, equations=(*self.equations, *more), generators=(*self.generators, *more))
 
     def columns_of(self, name: str) -> list[int]:
         """The columns of L that one of the four matrices has."""
@@ -110,9 +116,11 @@ def statement(data: Mapping[str, Any]) -> Statement:
     roles = tuple(listed(data, "roles", str))
     if set(roles) - set(ROLES) or any(len(row) != len(roles) for row in rows):
         raise Rejected("L: expected a role, output, input or passive, for each entry of each row")
+    equations = read(listed(data, "equations", str))
     whole = RealSet(
         context,
-        read(listed(data, "equations", str)),
+        equations,
+        equations,
         (*units, *positive),
         positive,
         tuple(nonnegative),

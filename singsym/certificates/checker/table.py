@@ -9,21 +9,36 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from singsym.certificates.checker.polynomials import Rejected
+from singsym.certificates.checker.polynomials import Rejected, remainder
+from singsym.certificates.checker.sets import RealSet
 
 
 @dataclass(frozen=True)
 class Finding:
     """What a leaf shows of its set.
 
-    types: those that its points can have; points: their number, None where it is not known; low, high:
-    bounds of its dimension, -1 for the empty set.
+    types: those that its points can have; points: their number, None where it is not known; low, high: bounds
+    of its dimension, -1 for the empty set; components: those of a smooth curve, all zeros of its equations,
+    that is its closure.
     """
 
+    at: RealSet
     types: frozenset[str]
     points: int | None
     low: int
     high: int
+    components: int | None = None
+
+    @property
+    def closed_components(self) -> int | None:
+        """Components of the set, closed up."""
+        return self.components if self.points is None else self.points
+
+    def holds(self, other: Finding) -> bool:
+        """Whether another set is seen to lie on the curve."""
+        return self.components is not None and not any(
+            remainder(g, other.at.equations) for g in self.at.generators
+        )
 
 
 @dataclass(frozen=True)
@@ -62,7 +77,13 @@ def proven_row(types: str, findings: Iterable[Finding]) -> Row:
     low, high = max(f.low for f in sure), max(f.high for f in own)
     numbers = [f.points for f in own]
     points = None if None in numbers else sum(k for k in numbers if k is not None)
-    return Row(types, True, low if low == high else None, points, points)
+    # points that lie on a curve of the row are no components of their own
+    apart = [f for f in own if f.points is None or not any(c.holds(f) for c in own)]
+    if points is None and any(f.points is not None for f in apart):
+        return Row(types, True, low if low == high else None)
+    parts = [f.closed_components for f in apart]
+    components = None if None in parts else sum(k for k in parts if k is not None)
+    return Row(types, True, low if low == high else None, points, components)
 
 
 def claimed_rows(data: Any) -> tuple[Row, ...]:

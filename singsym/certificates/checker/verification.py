@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from singsym.certificates.checker.curves import components
 from singsym.certificates.checker.points import points
 from singsym.certificates.checker.polynomials import Rejected, remainder
 from singsym.certificates.checker.ranks import bounds_on, is_possible, possible_types, types_of
@@ -137,7 +138,7 @@ class _Proof:
     def findings(self) -> list[Finding]:
         """What the leaves show; nothing is known of sets that are still open but their dimension."""
         types = frozenset(_all_types(self.about))
-        doubts = [Finding(types, None, -1, max(0, dimension_above(at))) for at in self.open.values()]
+        doubts = [Finding(at, types, None, -1, max(0, dimension_above(at))) for at in self.open.values()]
         return [*self.done, *doubts]
 
 
@@ -146,7 +147,7 @@ def _leaf(at: RealSet, about: Statement, line: Mapping[str, Any]) -> list[Findin
         _check_empty(at, line)
         return []
     if line["rule"] == "points":
-        return [Finding(frozenset([t]), k, 0, 0) for t, k in points(at, about, line).items()]
+        return [Finding(at, frozenset([t]), k, 0, 0) for t, k in points(at, about, line).items()]
     evidence = line.get("ranks")
     if not isinstance(evidence, Mapping):
         raise Rejected("ranks: expected evidence for matrices, by their names")
@@ -158,7 +159,8 @@ def _leaf(at: RealSet, about: Statement, line: Mapping[str, Any]) -> list[Findin
         if not isinstance(point, Mapping):
             raise Rejected(f"point: expected a box, got {str(point)[:80]}")
         low = dimension_below(at, point)
-    return [Finding(types, None, low, dimension_above(at))]
+    parts = None if line.get("curve") is None else components(at, line["curve"])
+    return [Finding(at, types, None, low, dimension_above(at), parts)]
 
 
 def _check_empty(at: RealSet, line: Mapping[str, Any]) -> None:

@@ -16,10 +16,12 @@ from flint import fmpq_mpoly
 
 from singsym.certificates.checker.polynomials import remainder
 from singsym.certificates.checker.ranks import bounds_on, possible_types
+from singsym.certificates.checker.rules import derive
 from singsym.certificates.checker.sets import RealSet, Statement
 from singsym.certificates.checker.strata import dimension_above
 from singsym.certificates.prover.boxes import point_leaf
 from singsym.certificates.prover.finite import points_leaf
+from singsym.certificates.prover.loops import curve_leaf
 from singsym.certificates.prover.traced_basis import traced_basis
 from singsym.certificates.prover.tree import Node, Tree
 from singsym.certificates.prover.unit_products import open_factors, product_of_units, unit_form
@@ -39,12 +41,13 @@ class Hints:
     """What is known beforehand, none of it as a proof.
 
     loci: polynomials to split on; products: multiples of determinants, on the configuration space; points:
-    numerical configurations.
+    numerical configurations; curves: whether components of curves are wanted.
     """
 
     loci: tuple[fmpq_mpoly, ...] = ()
     products: tuple[fmpq_mpoly, ...] = ()
     points: tuple[tuple[float, ...], ...] = ()
+    curves: bool = False
 
 
 def prove(about: Statement, hints: Hints) -> list[dict[str, Any]]:
@@ -108,14 +111,7 @@ class _Prover:
         """The set with a Groebner basis among its equations."""
         if node.based:
             return node
-        at = node.at
-        own = Ring(at.variables)
-        ideal = Ideal(own, [Polynomial(own, e) for e in at.equations if e])
-        target = [tuple(map(int, m)) for m in ideal.leading_monomials().value]
-        found = traced_basis(at.equations, current(), target)
-        is_unit = bool(found.basis) and found.basis[0].is_constant()
-        kept = [] if is_unit else [k for k in range(len(at.equations)) if k not in found.equations]
-        (node,) = self.tree.apply(node, "derive", steps=found.steps, equations=[*kept, *found.equations])
+        (node,) = self.tree.apply(node, "derive", **_basis_steps(node.at))
         return replace(node, based=True)
 
     def _is_empty(self, node: Node) -> bool:
@@ -161,6 +157,10 @@ class _Prover:
         data: dict[str, Any] = {"ranks": evidence}
         if self._types(at, evidence) != {""} and (point := point_leaf(at, self.hints.points)) is not None:
             data["point"] = point[0]
+            if point[1] == 1 == dimension_above(at) and self.hints.curves:
+                with attempt("components of a curve", PART, failures=self.failures):
+                    if (curve := curve_leaf(at, _based)) is not None:
+                        data["curve"] = curve
         self.tree.leaf(node, "ranks", **data)
 
     def _types(self, at: RealSet, evidence: Mapping[str, Any]) -> frozenset[str]:
@@ -188,6 +188,23 @@ class _Prover:
             if not exact:
                 return {"below": size}
         return {"below": 1}
+
+
+def _basis_steps(at: RealSet) -> dict[str, Any]:
+    """The rule `derive` to a Groebner basis, and the equations there are where they are not all of it."""
+    own = Ring(at.variables)
+    ideal = Ideal(own, [Polynomial(own, e) for e in at.equations if e])
+    target = [tuple(map(int, m)) for m in ideal.leading_monomials().value]
+    found = traced_basis(at.equations, current(), target)
+    is_unit = bool(found.basis) and found.basis[0].is_constant()
+    kept = [] if is_unit else [k for k in range(len(at.equations)) if k not in found.equations]
+    return {"steps": found.steps, "equations": [*kept, *found.equations]}
+
+
+def _based(at: RealSet) -> tuple[RealSet, dict[str, Any]]:
+    """The set with a Groebner basis, and the steps to it."""
+    steps = _basis_steps(at)
+    return derive(at, steps)[0], steps
 
 
 def _questions(at: RealSet, about: Statement) -> Iterator[tuple[str, bool]]:

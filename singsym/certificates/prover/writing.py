@@ -96,4 +96,5 @@ def _hints(result: Classification, found: Conditions) -> Hints:
         for row in result.classes
         for witness in row.witnesses
     ]
-    return Hints(tuple(p.value for p in loci), tuple(p.value for p in products), tuple(points))
+    curves = any(row.components is not None and row.dimension == 1 for row in result.classes)
+    return Hints(tuple(p.value for p in loci), tuple(p.value for p in products), tuple(points), curves)
