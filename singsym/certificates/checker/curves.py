@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from flint import arb, arb_mat, ctx, fmpq, fmpq_mat, fmpq_mpoly
+from flint import arb, arb_mat, arb_poly, ctx, fmpq, fmpq_mat, fmpq_mpoly
 
 from singsym.certificates.checker.points import ball, chart_of, check_all, real_roots
 from singsym.certificates.checker.polynomials import Rejected, determinant, polynomial, rational, remainder
@@ -71,9 +71,9 @@ class Compiled:
             for exponents, c in f.terms()
         ]
 
-    def at(self, values: Sequence[arb]) -> arb:
-        """The value at a point."""
-        total = arb(0)
+    def at(self, values: Sequence[Any]) -> Any:
+        """The value at a point, of balls or of polynomials over these."""
+        total = values[0] * 0
         for term, places in self.terms:
             for i in places:
                 term = term * values[i]
@@ -149,10 +149,11 @@ class Tubes:
         except ZeroDivisionError:
             raise Rejected("a tube: the equations are dependent in its middle") from None
         defect = inverse * square - arb_mat([[arb(int(i == j)) for j in others] for i in others])
-        steep = arb_mat([[sum((row[i] * slope[i] for i in others), start=row[along])] for row in jacobian])
+        line = [arb_poly([c, d]) for c, d in zip(tube.line(middle), slope, strict=True)]
+        line[along] = arb_poly([middle, 1])
+        on_line = inverse * arb_mat([[_range(f.at(line), half)] for f in self.functions])
         spreads = arb_mat([[spread] for _ in others])
-        at_middle = inverse * self._values(tube.line(middle)) + inverse * steep * half
-        moved = at_middle + defect * spreads
+        moved = on_line + defect * spreads
         if not all(abs(moved[i, 0]) < radius for i in range(len(others))):
             raise Rejected("a tube: the Newton operator does not map it into itself")
         ends = []
@@ -180,6 +181,14 @@ class Tubes:
                 a, b, r = _line((first, last, radius))
                 return along, a, b, _line(centre), _line(slope), r
         raise Rejected(f"expected a tube of {self.size} coordinates, got {str(entry)[:80]}")
+
+
+def _range(f: arb_poly, t: arb) -> arb:
+    """The values of a polynomial of one variable over a ball around zero, by each term."""
+    total, power = arb(0), arb(1)
+    for c in f.coeffs():
+        total, power = total + c * power, power * t
+    return total
 
 
 def _line(numbers: Sequence[int]) -> tuple[arb, ...]:

@@ -153,9 +153,7 @@ class _Tracker:
             )
             y = start if closing else self._corrected(x + step * direction, direction)
             made = self._tube(x, y, direction)
-            if made is None or (
-                tubes and not (tubes[-1].holds(made[1].start) and made[1].holds(tubes[-1].end))
-            ):
+            if made is None or not self._joined(tubes, made[1], closing):
                 step /= 2
                 if step < LEAST_STEP:
                     raise Undecided("an arc of a curve is not followed by tubes")
@@ -163,12 +161,17 @@ class _Tracker:
             entries.append(made[0])
             tubes.append(made[1])
             if closing:
-                if tubes[0].holds(made[1].end) and made[1].holds(tubes[0].start):
-                    return entries, tubes
-                raise Undecided("the tubes of a closed curve do not meet")
+                return entries, tubes
             x, direction = y, self._tangent(y, direction)
             step = min(1.5 * step, LARGEST_STEP)
         raise Undecided(f"a curve takes more than {MOST_TUBES} tubes")
+
+    @staticmethod
+    def _joined(before: Sequence[Tube], new: Tube, closing: bool) -> bool:
+        """Whether the last tube leads into a new one, and that into the first where it closes the loop."""
+        neighbours = [(before[-1], new)] if before else []
+        neighbours += [(new, before[0])] if closing else []
+        return all(one.holds(two.start) and two.holds(one.end) for one, two in neighbours)
 
     def _tangent(self, x: Floats, before: Floats | None) -> Floats:
         direction: Floats = numpy.linalg.svd(self.map.jacobian(x))[2][-1]
