@@ -24,7 +24,8 @@ EACH = -(-runs(280) // len(NAMES))
 
 def says_no_more(row: Row, true: Row) -> bool:
     """Whether all that a row knows is what the true one knows."""
-    pairs = [(getattr(row, key), getattr(true, key)) for key in ("occurs", "dimension", "points", "components")]
+    keys = ("occurs", "dimension", "points", "components")
+    pairs = [(getattr(row, key), getattr(true, key)) for key in keys]
     return all(known is None or known == right for known, right in pairs)
 
 

@@ -19,7 +19,7 @@ from flint import arb, arb_mat, arb_poly, ctx, fmpq, fmpq_mat, fmpq_mpoly
 from singsym.certificates.checker.points import ball, chart_of, check_all, real_roots
 from singsym.certificates.checker.polynomials import Rejected, determinant, polynomial, rational, remainder
 from singsym.certificates.checker.rules import derive
-from singsym.certificates.checker.sets import RealSet, chosen, listed, whole_number
+from singsym.certificates.checker.sets import RealSet, chosen, listed, power
 
 BITS = 90
 UNIT = 10**9
@@ -242,7 +242,7 @@ def _critical_points(at: RealSet, data: Any) -> list[list[arb]]:
     factors = listed(data, "factors", dict)
     parts = [polynomial(entry.get("polynomial", ""), at.context) for entry in factors]
     for part, entry in zip(parts, factors, strict=True):
-        for _ in range(max(whole_number(entry, "multiplicity"), 1)):
+        for _ in range(power(entry, "multiplicity")):
             product = product * part
     if not product or remainder(determinant(rows, at.equations) - product, at.equations):
         raise Rejected("critical: the determinant is not seen to be this product")
@@ -252,7 +252,7 @@ def _critical_points(at: RealSet, data: Any) -> list[list[arb]]:
         if any(e.is_constant() for e in there.equations if e):
             continue
         form, minimal, coordinates = chart_of(there, entry)
-        check_all(there, form, minimal, coordinates, max(whole_number(entry, "power"), 1))
+        check_all(there, form, minimal, coordinates, power(entry))
         for root in real_roots(minimal):
             found.append([ball(coordinates[name], root) for name in at.variables])
     return found

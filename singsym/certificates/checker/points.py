@@ -13,7 +13,7 @@ from flint import arb, ctx, fmpq_mpoly, fmpq_poly
 
 from singsym.certificates.checker.polynomials import Rejected, polynomial, rational, remainder
 from singsym.certificates.checker.ranks import Defects, is_possible, types_of
-from singsym.certificates.checker.sets import MATRICES, RealSet, Statement, listed, whole_number
+from singsym.certificates.checker.sets import MATRICES, RealSet, Statement, listed, power
 
 MOST_BITS = 4096
 
@@ -27,7 +27,7 @@ def points(at: RealSet, about: Statement, line: Mapping[str, Any]) -> dict[str, 
     of a root; the roots at which an equation does not vanish, or a unit does, are left out.
     """
     form, minimal, coordinates = chart_of(at, line)
-    check_all(at, form, minimal, coordinates, max(whole_number(line, "power"), 1))
+    check_all(at, form, minimal, coordinates, power(line))
     chart = _Chart(at, minimal, coordinates)
     if (chart.value(form, minimal) - fmpq_poly([0, 1])) % minimal:
         raise Rejected("form: it is not the root at its points")
@@ -68,7 +68,7 @@ def _factors(f: fmpq_poly) -> list[fmpq_poly]:
 
 
 def check_all(
-    at: RealSet, form: fmpq_mpoly, minimal: fmpq_poly, coordinates: Mapping[str, fmpq_poly], power: int
+    at: RealSet, form: fmpq_mpoly, minimal: fmpq_poly, coordinates: Mapping[str, fmpq_poly], exponent: int
 ) -> None:
     """Whether each complex point of the equations is one of the chart's; raises `Rejected`."""
     powers = [at.context.constant(1)]
@@ -81,7 +81,7 @@ def check_all(
     gens = dict(zip(at.context.names(), at.context.gens(), strict=True))
     for f in (put(minimal), *(gens[name] - put(r) for name, r in coordinates.items())):
         product = at.context.constant(1)
-        for _ in range(power):
+        for _ in range(exponent):
             product = remainder(product * f, at.equations)
         if product:
             raise Rejected("there may be more points: a power is not seen to be in the ideal")

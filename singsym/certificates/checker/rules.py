@@ -1,7 +1,7 @@
 """The rules that take a set apart, into sets that have its points together and no point in common.
 
 Source: singsym's own; the steps of `derive` follow the practical algebraic calculus (Kaufmann, Fleury, Biere,
-Kauers 2022), those of `squares` the Positivstellensatz (Stengle 1974).
+Kauers 2022).
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from singsym.certificates.checker.polynomials import (
     remainder,
     s_polynomial,
 )
-from singsym.certificates.checker.sets import RealSet, chosen, listed, whole_number
+from singsym.certificates.checker.sets import RealSet, chosen, listed, power, whole_number
 
 Line = Mapping[str, Any]
 
@@ -76,36 +76,11 @@ def cancel(at: RealSet, line: Line) -> tuple[RealSet, ...]:
     """One more equation, of which a power times units is in the ideal of those there are."""
     f = polynomial(line.get("polynomial", ""), at.context)
     product = unit_product(at, line)
-    for _ in range(max(whole_number(line, "power"), 1)):
+    for _ in range(power(line)):
         product = remainder(product * f, at.equations)
     if product:
         raise Rejected("the product is not seen to be in the ideal")
     return (at.within([f]),)
-
-
-def squares(at: RealSet, line: Line) -> tuple[RealSet, ...]:
-    """A sum of terms, none negative, that vanishes: each term does.
-
-    terms: each `[scale, positive, nonnegative, root]`: a positive number, places of polynomials of these
-        signs, and a polynomial whose square they are multiplied by.
-    """
-    total, found = at.context.constant(0), []
-    for term in listed(line, "terms", list):
-        if len(term) != 4 or not all(isinstance(part, list) for part in term[1:3]):
-            raise Rejected(f"terms: expected [scale, positive, nonnegative, root], got {str(term)[:80]}")
-        scale, root = rational(term[0]), polynomial(term[3], at.context)
-        if scale <= 0:
-            raise Rejected(f"terms: expected a positive scale, got {term[0]}")
-        weight = at.context.constant(1)
-        for factor in chosen(at.nonnegative, term[2], "polynomial that is not negative"):
-            weight = weight * factor
-        found.append(weight * root)
-        for factor in chosen(at.positive, term[1], "positive polynomial"):
-            weight = weight * factor
-        total = total + weight * root * root * scale
-    if remainder(total, at.equations):
-        raise Rejected("the sum is not seen to be in the ideal")
-    return (at.within(found),)
 
 
 def pivot(at: RealSet, line: Line) -> tuple[RealSet, ...]:
@@ -134,6 +109,5 @@ RULES: dict[str, Callable[[RealSet, Line], tuple[RealSet, ...]]] = {
     "split": split,
     "derive": derive,
     "cancel": cancel,
-    "squares": squares,
     "pivot": pivot,
 }

@@ -14,6 +14,7 @@ from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 from singsym.certificates.checker.polynomials import Rejected, polynomial, rational, ring
 
 Matrix = tuple[tuple[fmpq_mpoly, ...], ...]
+MOST = 64
 ROLES = ("output", "input", "passive")
 MATRICES = ("L", "L_p", "L_I", "L_O")
 _WITHOUT = {"L": (), "L_p": ("input", "output"), "L_I": ("input",), "L_O": ("output",)}
@@ -79,6 +80,14 @@ def whole_number(data: Mapping[str, Any], key: str) -> int:
     value = data.get(key)
     if type(value) is not int or value < 0:
         raise Rejected(f"{key}: expected a whole number, got {str(value)[:80]}")
+    return value
+
+
+def power(data: Mapping[str, Any], key: str = "power") -> int:
+    """An exponent, 1 where there is none; raises `Rejected` above 64."""
+    value = whole_number({key: 1} | dict(data), key)
+    if not 0 < value <= MOST:
+        raise Rejected(f"{key}: expected a number from 1 to {MOST}, got {value}")
     return value
 
 

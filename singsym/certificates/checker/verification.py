@@ -15,7 +15,7 @@ from typing import Any
 
 from singsym.certificates.checker.curves import components
 from singsym.certificates.checker.points import points
-from singsym.certificates.checker.polynomials import Rejected, remainder
+from singsym.certificates.checker.polynomials import Rejected
 from singsym.certificates.checker.ranks import bounds_on, is_possible, possible_types, types_of
 from singsym.certificates.checker.rules import RULES
 from singsym.certificates.checker.sets import RealSet, Statement, chosen, listed, statement, whole_number
@@ -76,7 +76,7 @@ def verify(path: str | Path) -> Verification:
     except Rejected as error:
         raise Rejected(f"line {number}: {error}") from None
     findings = proof.findings()
-    proven = tuple(proven_row(types, findings) for types in _all_types(about))
+    proven = tuple(proven_row(types, findings) for types in all_types(about))
     return Verification(
         header["name"], proven, claims, tuple(_missing(claims, proven, proof)), proof.rules, data
     )
@@ -137,7 +137,7 @@ class _Proof:
 
     def findings(self) -> list[Finding]:
         """What the leaves show; nothing is known of sets that are still open but their dimension."""
-        types = frozenset(_all_types(self.about))
+        types = frozenset(all_types(self.about))
         doubts = [Finding(at, types, None, -1, max(0, dimension_above(at))) for at in self.open.values()]
         return [*self.done, *doubts]
 
@@ -164,30 +164,13 @@ def _leaf(at: RealSet, about: Statement, line: Mapping[str, Any]) -> list[Findin
 
 
 def _check_empty(at: RealSet, line: Mapping[str, Any]) -> None:
-    """Whether an equation is constant, a unit vanishes, or a sign is wrong; raises `Rejected`."""
-    kind, place = line.get("by"), whole_number(line, "place")
-    lists = {
-        "equation": at.equations,
-        "unit": at.units,
-        "positive": at.positive,
-        "nonnegative": at.nonnegative,
-    }
-    if kind not in lists:
-        raise Rejected(f"by: expected one of {', '.join(lists)}, got {str(kind)[:80]}")
-    f = chosen(lists[kind], [place], kind)[0]
-    if kind == "equation":
-        wrong = bool(f) and f.is_constant()
-    else:
-        rest = remainder(f, at.equations)
-        value = rest.leading_coefficient() if rest else 0
-        wrong = (
-            rest.is_constant() and {"unit": not rest, "positive": value <= 0, "nonnegative": value < 0}[kind]
-        )
-    if not wrong:
+    """Whether an equation is a constant that is not zero; raises `Rejected`."""
+    f = chosen(at.equations, [line.get("equation")], "equation")[0]
+    if not f or not f.is_constant():
         raise Rejected("the set is not seen to be empty")
 
 
-def _all_types(about: Statement) -> list[str]:
+def all_types(about: Statement) -> list[str]:
     """The types that configurations of this mobility can have, but for none."""
     found: dict[str, None] = {}
     # lowering all four defects by one keeps the types while delta, p > 1; |delta - p| <= n

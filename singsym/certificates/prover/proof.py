@@ -119,7 +119,7 @@ class _Prover:
         at = node.at
         for place, equation in enumerate(at.equations):
             if equation and equation.is_constant():
-                self.tree.leaf(node, "empty", by="equation", place=place)
+                self.tree.leaf(node, "empty", equation=place)
                 return True
         ways = [[place] for place in range(len(at.units))]
         ways += [list(range(len(at.units)))] if len(at.units) > 1 else []
@@ -131,7 +131,7 @@ class _Prover:
                 if not product:
                     data = {"polynomial": "1", "units": way * power, "power": 1}
                     (node,) = self.tree.apply(node, "cancel", **data)
-                    self.tree.leaf(node, "empty", by="equation", place=len(node.at.equations) - 1)
+                    self.tree.leaf(node, "empty", equation=len(node.at.equations) - 1)
                     return True
         return False
 
