@@ -151,10 +151,14 @@ class Tubes:
         defect = inverse * square - arb_mat([[arb(int(i == j)) for j in others] for i in others])
         line = [arb_poly([c, d]) for c, d in zip(tube.line(middle), slope, strict=True)]
         line[along] = arb_poly([middle, 1])
-        on_line = inverse * arb_mat([[_range(f.at(line), half)] for f in self.functions])
+        series = [f.at(line).coeffs() for f in self.functions]
+        terms = max(map(len, series))
+        # the inverse first, then the range: what cancels is not counted twice
+        on_line = inverse * arb_mat([[*c, *[arb(0)] * (terms - len(c))] for c in series])
+        ranges = [_over([on_line[i, k] for k in range(terms)], half) for i in range(len(others))]
         spreads = arb_mat([[spread] for _ in others])
-        moved = on_line + defect * spreads
-        if not all(abs(moved[i, 0]) < radius for i in range(len(others))):
+        moved = defect * spreads
+        if not all(abs(total + moved[i, 0]) < radius for i, total in enumerate(ranges)):
             raise Rejected("a tube: the Newton operator does not map it into itself")
         ends = []
         for t in (first, last):
@@ -183,11 +187,11 @@ class Tubes:
         raise Rejected(f"expected a tube of {self.size} coordinates, got {str(entry)[:80]}")
 
 
-def _range(f: arb_poly, t: arb) -> arb:
-    """The values of a polynomial of one variable over a ball around zero, by each term."""
-    total, power = arb(0), arb(1)
-    for c in f.coeffs():
-        total, power = total + c * power, power * t
+def _over(coefficients: Sequence[arb], t: arb) -> arb:
+    """The values of a polynomial in one variable over a ball around zero, by each term."""
+    total, power_of_t = arb(0), arb(1)
+    for c in coefficients:
+        total, power_of_t = total + c * power_of_t, power_of_t * t
     return total
 
 

@@ -28,6 +28,7 @@ Based = Callable[[RealSet], tuple[RealSet, dict[str, Any]]]
 
 FIRST_STEP, LEAST_STEP, LARGEST_STEP = 0.2, 1e-4, 0.5
 MOST_TUBES = 4000
+SHORTER = 0.3
 OVERLAP = 0.08
 """Tubes go on beyond both ends by this part of their length."""
 WIDTHS = (4.0, 8.0)
@@ -142,6 +143,7 @@ class _Tracker:
         x, step = start, FIRST_STEP
         entries: list[Any] = []
         tubes: list[Tube] = []
+        before: list[tuple[Floats, Floats, float]] = []
         while len(tubes) < MOST_TUBES:
             current().check("the components of a curve for a certificate")
             ahead = start - x
@@ -155,9 +157,15 @@ class _Tracker:
             made = self._tube(x, y, direction)
             if made is None or not self._joined(tubes, made[1], closing):
                 step /= 2
+                if before and step < SHORTER * before[-1][2]:
+                    # a tube so much shorter does not reach over the overlap: the last one is made anew
+                    x, direction, step = before.pop()
+                    del entries[-1], tubes[-1]
+                    step /= 2
                 if step < LEAST_STEP:
                     raise Undecided("an arc of a curve is not followed by tubes")
                 continue
+            before.append((x, direction, step))
             entries.append(made[0])
             tubes.append(made[1])
             if closing:
