@@ -147,12 +147,8 @@ class _Tracker:
         while len(tubes) < MOST_TUBES:
             current().check("the components of a curve for a certificate")
             ahead = start - x
-            closing = (
-                len(tubes) > 1
-                and ahead @ direction > 0
-                and numpy.linalg.norm(ahead) < 1.5 * step
-                and direction @ first > 0.5
-            )
+            near = ahead @ direction > 0 and numpy.linalg.norm(ahead) < 1.5 * step
+            closing = bool(len(tubes) > 1 and near and direction @ first > 0.5)
             y = start if closing else self._corrected(x + step * direction, direction)
             made = self._tube(x, y, direction)
             if made is None or not self._joined(tubes, made[1], closing):

@@ -14,7 +14,7 @@ from typing import Any
 
 from flint import fmpq_mpoly
 
-from singsym.certificates.checker.polynomials import remainder
+from singsym.certificates.checker.polynomials import Rejected, remainder
 from singsym.certificates.checker.ranks import bounds_on, possible_types
 from singsym.certificates.checker.rules import derive
 from singsym.certificates.checker.sets import RealSet, Statement
@@ -71,7 +71,10 @@ class _Prover:
     def attempted(self, work: Callable[[], None]) -> None:
         """Do what may not end in time; then parts of what it was for stay open."""
         with attempt("a certificate", PART, failures=self.failures):
-            work()
+            try:
+                work()
+            except Rejected as error:
+                raise Undecided(f"the checker would not follow: {error}") from None
 
     def reduced(self, node: Node) -> Node:
         """The set with a smaller matrix: passive columns go with pivots that are products of units."""
@@ -154,8 +157,11 @@ class _Prover:
                 if rest is not None:
                     self._ranked(rest)
                 return
+        types = self._types(at, evidence)
+        if not types:
+            raise Undecided("the rank of a matrix is not seen to be at most N")
         data: dict[str, Any] = {"ranks": evidence}
-        if self._types(at, evidence) != {""} and (point := point_leaf(at, self.hints.points)) is not None:
+        if types != {""} and (point := point_leaf(at, self.hints.points)) is not None:
             data["point"] = point[0]
             if point[1] == 1 == dimension_above(at) and self.hints.curves:
                 with attempt("components of a curve", PART, failures=self.failures):
@@ -164,7 +170,11 @@ class _Prover:
         self.tree.leaf(node, "ranks", **data)
 
     def _types(self, at: RealSet, evidence: Mapping[str, Any]) -> frozenset[str]:
-        return possible_types(bounds_on(at, self.tree.about, evidence), self.tree.about.n)
+        """The types that are left; none where a rank is not seen to be at most N yet."""
+        try:
+            return possible_types(bounds_on(at, self.tree.about, evidence), self.tree.about.n)
+        except Rejected:
+            return frozenset()
 
     def _rank(self, at: RealSet, name: str, exact: bool) -> dict[str, Any] | fmpq_mpoly:
         """Evidence for the rank of a matrix on a set, or a polynomial to split on.
