@@ -199,6 +199,7 @@ def test_the_rows_are_the_classes(n: int) -> None:
     assert {frozenset(t.split(", ")) for t in own} == {frozenset(c.types.names) for c in feasible_classes(n)}
 
 
+@pytest.mark.engines
 def test_a_certificate_that_ends_early(certified: Callable[[str], Certificate], tmp_path: Path) -> None:
     lines = certified("fourbar").lines
     found = verification.verify(Certificate(lines[:-1]).write(tmp_path / "short"))

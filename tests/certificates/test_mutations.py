@@ -18,6 +18,7 @@ from singsym.certificates.prover.writing import Certificate
 from tests.certificates.damage import damaged
 from tests.laws.draws import draw, runs
 
+pytestmark = pytest.mark.engines
 NAMES = ("fourbar", "slider-crank", "2r", "orthogonal-3r", "change-point", "wrist-offset", "parallelogram")
 EACH = -(-runs(280) // len(NAMES))
 

@@ -19,8 +19,18 @@ from singsym.kinematics.own_equation import SymbolicSpace, from_sympy
 from singsym.mechanism import loads
 from tests.soundness.exact_ranks import defects
 
+pytestmark = pytest.mark.engines
 FULL = ("2r", "scara", "stanford", "orthogonal-3r", "puma560", "wrist-offset")
-FULL += ("fourbar", "slider-crank", "change-point", "parallelogram", "shaper", "whitworth", "toggle-press")
+FULL += (
+    "five-bar",
+    "fourbar",
+    "slider-crank",
+    "change-point",
+    "parallelogram",
+    "shaper",
+    "whitworth",
+    "toggle-press",
+)
 
 
 @pytest.mark.parametrize("name", FULL)
@@ -45,8 +55,9 @@ def test_a_four_bar_of_ones_own(tmp_path: Path, capsys: pytest.CaptureFixture[st
     """Links 2, 4, 5 on a base of 6.
 
     det L_O = 0 where crank and coupler are in line, C at 2 + 4 = 6 or 4 - 2 = 2 from A: with the rocker of 5
-    and the base of 6 the triangles (6, 5, 6) and (2, 5, 6) close, two mirror images each: 4 points of (RI, IO).
-    det L_I = 0 where coupler and rocker are in line, B at 9 or 1 from D; but it is between 4 and 8 from D: none.
+    and the base of 6 the triangles (6, 5, 6) and (2, 5, 6) close, two mirror images each: 4
+    points of (RI, IO). det L_I = 0 where coupler and rocker are in line, B at 9 or 1 from D; it is
+    between 4 and 8 from D: none.
     """
     file, proof = tmp_path / "own.toml", tmp_path / "own.cert"
     file.write_text(OWN, encoding="utf-8")
