@@ -21,7 +21,7 @@ from singsym.certificates.checker.polynomials import Rejected, determinant, poly
 from singsym.certificates.checker.rules import derive
 from singsym.certificates.checker.sets import RealSet, chosen, listed, power
 
-BITS = 90
+BITS, ROOT_BITS = 90, 2048
 UNIT = 10**9
 """Numbers of tubes are whole multiples of one over this."""
 
@@ -188,10 +188,10 @@ class Tubes:
 
 
 def _over(coefficients: Sequence[arb], t: arb) -> arb:
-    """The values of a polynomial in one variable over a ball around zero, by each term."""
-    total, power_of_t = arb(0), arb(1)
-    for c in coefficients:
-        total, power_of_t = total + c * power_of_t, power_of_t * t
+    """The values of a polynomial in one variable over a ball around zero."""
+    total = arb(0)
+    for c in reversed(coefficients):
+        total = total * t + c
     return total
 
 
@@ -257,6 +257,7 @@ def _critical_points(at: RealSet, data: Any) -> list[list[arb]]:
             continue
         form, minimal, coordinates = chart_of(there, entry)
         check_all(there, form, minimal, coordinates, power(entry))
-        for root in real_roots(minimal):
-            found.append([ball(coordinates[name], root) for name in at.variables])
+        with ctx.workprec(ROOT_BITS):
+            roots = real_roots(minimal)
+            found += [[ball(coordinates[name], root) for name in at.variables] for root in roots]
     return found

@@ -13,7 +13,7 @@ import numpy
 from flint import ctx, fmpq_mpoly
 from numpy.typing import NDArray
 
-from singsym.certificates.checker.curves import BITS, UNIT, Tube, Tubes
+from singsym.certificates.checker.curves import BITS, ROOT_BITS, UNIT, Tube, Tubes
 from singsym.certificates.checker.points import ball, chart_of, real_roots
 from singsym.certificates.checker.polynomials import Rejected, determinant, remainder
 from singsym.certificates.checker.sets import RealSet
@@ -112,7 +112,7 @@ def _critical(at: RealSet, based: Based) -> tuple[dict[str, Any] | None, list[An
                     break
                 entry |= points_leaf(there)
                 _, minimal, coordinates = chart_of(there, entry)
-                with ctx.workprec(BITS):
+                with ctx.workprec(ROOT_BITS):
                     roots = real_roots(minimal)
                     balls += [[ball(coordinates[n], root) for n in at.variables] for root in roots]
             entries.append(entry)

@@ -30,8 +30,8 @@ from singsym.effort.budget import Undecided, current
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Polynomial, Ring
 
-PART = 60.0
-"""Seconds of work for one part of the configuration space."""
+PART, WHOLE = 60.0, 600.0
+"""Seconds of work for one part of the configuration space, and for all of it."""
 HIGHEST_POWER = 4
 MOST_MINORS = 400
 
@@ -53,7 +53,7 @@ class Hints:
 def prove(about: Statement, hints: Hints) -> list[dict[str, Any]]:
     """The lines of a proof; parts on which none is found are left open, with the reason."""
     prover = _Prover(Tree(about), hints)
-    prover.attempted(lambda: prover.take_apart(prover.reduced(prover.tree.root), hints.loci))
+    prover.attempted(lambda: prover.take_apart(prover.reduced(prover.tree.root), hints.loci), WHOLE)
     closed = {line["at"] for line in prover.tree.lines}
     why = "; ".join(dict.fromkeys(map(str, prover.failures)))
     left = [number for number in range(prover.tree.numbers + 1) if number not in closed]
@@ -68,9 +68,9 @@ class _Prover:
     hints: Hints
     failures: list[Undecided] = field(default_factory=list)
 
-    def attempted(self, work: Callable[[], None]) -> None:
+    def attempted(self, work: Callable[[], None], most: float = PART) -> None:
         """Do what may not end in time; then parts of what it was for stay open."""
-        with attempt("a certificate", PART, failures=self.failures):
+        with attempt("a certificate", most, failures=self.failures):
             try:
                 work()
             except Rejected as error:
