@@ -13,6 +13,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from singsym.certificates.checker.verification import Verification, verify
+    from singsym.certificates.prover.writing import Certificate, certificate
     from singsym.classes.classify import Limits, classify, classify_equation
     from singsym.classes.configuration.at import Analysis, MatrixReport, at, at_equation
     from singsym.classes.configuration.given_values import Given
@@ -80,6 +82,8 @@ if TYPE_CHECKING:
     from singsym.varieties.real.points.exact_point import RealPoint
 
 _HOMES = {
+    "singsym.certificates.checker.verification": "Verification verify",
+    "singsym.certificates.prover.writing": "Certificate certificate",
     "singsym.classes.classify": "Limits classify classify_equation",
     "singsym.classes.configuration.at": "Analysis MatrixReport at at_equation",
     "singsym.classes.configuration.given_values": "Given",
@@ -131,6 +135,7 @@ __all__ = [
     "Budget",
     "BudgetExceeded",
     "Cancelled",
+    "Certificate",
     "Choice",
     "ClassResult",
     "Classification",
@@ -195,8 +200,10 @@ __all__ = [
     "Undecided",
     "VelocityEquation",
     "Verdict",
+    "Verification",
     "at",
     "at_equation",
+    "certificate",
     "check",
     "check_mobility",
     "class_of",
@@ -227,6 +234,7 @@ __all__ = [
     "solve_equation",
     "use_seed",
     "velocity_equation",
+    "verify",
 ]
 
 

@@ -35,6 +35,17 @@ Results go to stdout, messages to stderr.  Exit code: 0 decided, 3 a class,
 a dimension or a number is open, 2 usage or bad input, 130 interrupted.  More on a
 command: singsym COMMAND --help"""
 
+_AS_IT_IS: dict[str, Any] = {
+    "settings": [],
+    "formulation": "auto",
+    "base": None,
+    "tip": None,
+    "components": [],
+    "lock": [],
+    "joints": [],
+}
+"""A mechanism of which nothing is chosen: see `_mechanism`."""
+
 
 def _lazily(module: str, function: str) -> Callable[[argparse.Namespace], int]:
     """The command's function, imported when it is called, so that `singsym list` does not load solvers."""
@@ -90,7 +101,9 @@ def parser() -> argparse.ArgumentParser:
     whole = (_mechanism, _work, printed, _standalone)
     words = "conditions (4), (5), (i)-(viii), factored"
     add("conditions", "singularities", words, _mechanism, printed, _standalone, _expand)
-    add("classify", "singularities", "the singularity set and its classes", *whole)
+    add("classify", "singularities", "the singularity set and its classes", *whole, _certificate)
+    words = "check a certificate, without any search, and say what it proves"
+    add("verify", "certificates", words, _certified, short)
     add("solve", "singularities", "the solution sets of some conditions", *whole, _labels)
     words = "ranks, types and null motions of one configuration"
     add("at", "singularities", words, _mechanism, _configuration, short)
@@ -116,9 +129,7 @@ def parser() -> argparse.ArgumentParser:
     )
     add("report", "pictures", "one HTML page with everything about a mechanism", _mechanism, _work, _output)
     words = "a web page of each mechanism of the library, and an index"
-    usual: dict[str, Any] = {"settings": [], "formulation": "auto", "base": None, "tip": None}
-    usual |= {"components": [], "lock": [], "joints": []}
-    add("gallery", "gallery", words, _work, _folder).set_defaults(**usual)
+    add("gallery", "gallery", words, _work, _folder).set_defaults(**_AS_IT_IS)
     add("engines", "tools", "which engines there are, and how to get the others", _install, short)
     add("cache", "tools", "the results that are kept on disk, and how to clear them", _clear, short)
     add("completion", "tools", "a script that completes commands in a shell", _shell)
@@ -213,6 +224,18 @@ def _parts(command: argparse.ArgumentParser) -> None:
         metavar="A,B,...",
         help="those that move; hold all others at 0, or in a URDF file within limits that leave 0 out",
     )
+
+
+def _certificate(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--certificate", metavar="FILE", help="write a proof of the table, which singsym verify checks"
+    )
+
+
+def _certified(command: argparse.ArgumentParser) -> None:
+    command.add_argument("file", metavar="FILE", help="that singsym classify --certificate wrote")
+    command.add_argument("--mechanism", metavar="MECHANISM", help="check that it is about this mechanism")
+    command.set_defaults(**_AS_IT_IS)
 
 
 def _name(command: argparse.ArgumentParser) -> None:

@@ -125,6 +125,10 @@ def run_classify(chosen: argparse.Namespace) -> int:
         _emit_classification(cast("Classification", interruption.partial), chosen)
         raise
     _emit_classification(result, chosen)
+    if chosen.certificate:
+        from singsym.cli.certificates import write_certificate
+
+        write_certificate(result, chosen.certificate)
     return UNDECIDED if result.undecided else 0
 
 

@@ -1,0 +1,1 @@
+"""Certificates of classifications: `prover` writes them, `checker` verifies them and knows nothing else."""

@@ -1,0 +1,263 @@
+"""The connected components of a smooth bounded curve, as closed chains of tubes.
+
+Source: Krawczyk (1969), with a parameter; Neumaier, Interval Methods for Systems of Equations (1990), 5.1; a
+closed and bounded component has a point at which a coordinate is largest, a critical one (Seidenberg 1954).
+
+Lemma.  In a tube there is one point of the curve over each value of one coordinate between two bounds: an
+arc.  A chain in which each arc begins inside the one before and ends inside the next, and the last is before
+the first, has a union that is compact, and open in the curve: a component of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from flint import arb, arb_mat, arb_poly, ctx, fmpq, fmpq_mat, fmpq_mpoly
+
+from singsym.certificates.checker.points import ball, chart_of, check_all, real_roots
+from singsym.certificates.checker.polynomials import Rejected, determinant, polynomial, rational, remainder
+from singsym.certificates.checker.rules import derive
+from singsym.certificates.checker.sets import RealSet, chosen, listed, power
+
+BITS, ROOT_BITS = 90, 2048
+UNIT = 10**9
+"""Numbers of tubes are whole multiples of one over this."""
+
+
+def components(at: RealSet, data: Any) -> int:
+    """The number of components of a curve, the zeros of the equations of a set; raises `Rejected`.
+
+    The set has one generator less than variables and no inequalities.  bounded: see `_check_bounded`;
+    critical: see `_critical_points`; loops: chains of tubes, see `Tubes.tube`.  Each critical point lies in a
+    tube, and each loop has a point that is in the set, so that the loop is its closure.
+    """
+    if not isinstance(data, Mapping):
+        raise Rejected("a curve: expected bounded, critical and loops")
+    if len(at.generators) != len(at.variables) - 1:
+        raise Rejected("a curve: expected one generator less than variables")
+    if at.positive or at.nonnegative:
+        raise Rejected("a curve: its components are not counted within inequalities")
+    _check_bounded(at, listed(data, "bounded", list))
+    system = Tubes(at)
+    with ctx.workprec(BITS):
+        loops = [[system.tube(entry) for entry in loop] for loop in listed(data, "loops", list)]
+        for k, loop in enumerate(loops):
+            for one, two in zip(loop, (*loop[1:], loop[0]), strict=True):
+                if not (two.holds(one.end) and one.holds(two.start)):
+                    raise Rejected(f"loop {k}: a tube does not lead into the next one")
+            if not any(all(_is_off_zero(unit, tube.start) for unit in at.units) for tube in loop):
+                raise Rejected(f"loop {k}: no point of it is seen to be in the set")
+            for other in loops[:k]:
+                if not all(tube.misses(loop[0].start) for tube in other):
+                    raise Rejected(f"loop {k} is not seen to be another one than those before")
+        for point in _critical_points(at, data.get("critical")):
+            if not any(tube.holds(point) for loop in loops for tube in loop):
+                raise Rejected("a critical point lies in no tube")
+    return len(loops)
+
+
+def _is_off_zero(f: fmpq_mpoly, values: Sequence[arb]) -> bool:
+    return not Compiled(f).at(values).contains(0)
+
+
+class Compiled:
+    """A polynomial to be evaluated at balls again and again."""
+
+    def __init__(self, f: fmpq_mpoly) -> None:
+        self.terms = [
+            (arb(c), [i for i, e in enumerate(exponents) for _ in range(int(e))])
+            for exponents, c in f.terms()
+        ]
+
+    def at(self, values: Sequence[Any]) -> Any:
+        """The value at a point, of balls or of polynomials over these."""
+        total = values[0] * 0
+        for term, places in self.terms:
+            for i in places:
+                term = term * values[i]
+            total = total + term
+        return total
+
+
+@dataclass(frozen=True)
+class Tube:
+    """Points with one coordinate `along` between two bounds, each other one within `radius` of a line.
+
+    start, end: balls that hold the ends of the arc inside.
+    """
+
+    along: int
+    low: arb
+    high: arb
+    first: arb
+    centre: tuple[arb, ...]
+    slope: tuple[arb, ...]
+    radius: arb
+    start: tuple[arb, ...] = ()
+    end: tuple[arb, ...] = ()
+
+    def line(self, t: arb) -> list[arb]:
+        """The point of the middle line over a value of the coordinate."""
+        found = [c + s * (t - self.first) for c, s in zip(self.centre, self.slope, strict=True)]
+        found[self.along] = t
+        return found
+
+    def holds(self, box: Sequence[arb]) -> bool:
+        """Whether a box lies inside, off both ends."""
+        t = box[self.along]
+        if not (self.low < t < self.high):
+            return False
+        pairs = enumerate(zip(box, self.line(t), strict=True))
+        return all(abs(x - c) < self.radius for i, (x, c) in pairs if i != self.along)
+
+    def misses(self, box: Sequence[arb]) -> bool:
+        """Whether a box has no point of the tube."""
+        t = box[self.along]
+        if t < self.low or t > self.high:
+            return True
+        pairs = enumerate(zip(box, self.line(t), strict=True))
+        return any(abs(x - c) > self.radius for i, (x, c) in pairs if i != self.along)
+
+
+class Tubes:
+    """The curve of a set, and tubes with an arc of it in each."""
+
+    def __init__(self, at: RealSet) -> None:
+        self.size = len(at.variables)
+        with ctx.workprec(BITS):
+            self.functions = [Compiled(e) for e in at.generators]
+            self.gradients = [[Compiled(e.derivative(i)) for i in range(self.size)] for e in at.generators]
+
+    def tube(self, entry: Any) -> Tube:
+        """`[along, from, to, centre, slope, radius]`, all but the first in units; raises `Rejected`.
+
+        For each value of the coordinate the Newton operator maps the box around the line's point into itself.
+        """
+        along, first, last, centre, slope, radius = self._read(entry)
+        tube = Tube(along, min(first, last), max(first, last), first, centre, slope, radius)
+        others = [i for i in range(self.size) if i != along]
+        middle = (first + last) / 2
+        half = arb(0, (abs(last - first) / 2).upper())
+        spread = arb(0, radius.upper())
+        box = [x if i == along else x + spread for i, x in enumerate(tube.line(middle + half))]
+        jacobian = [[g.at(box) for g in row] for row in self.gradients]
+        square = arb_mat([[row[i] for i in others] for row in jacobian])
+        try:
+            inverse = square.mid().inv().mid()
+        except ZeroDivisionError:
+            raise Rejected("a tube: the equations are dependent in its middle") from None
+        defect = inverse * square - arb_mat([[arb(int(i == j)) for j in others] for i in others])
+        line = [arb_poly([c, d]) for c, d in zip(tube.line(middle), slope, strict=True)]
+        line[along] = arb_poly([middle, 1])
+        series = [f.at(line).coeffs() for f in self.functions]
+        terms = max(map(len, series))
+        # the inverse first, then the range: what cancels is not counted twice
+        on_line = inverse * arb_mat([[*c, *[arb(0)] * (terms - len(c))] for c in series])
+        ranges = [_over([on_line[i, k] for k in range(terms)], half) for i in range(len(others))]
+        spreads = arb_mat([[spread] for _ in others])
+        moved = defect * spreads
+        if not all(abs(total + moved[i, 0]) < radius for i, total in enumerate(ranges)):
+            raise Rejected("a tube: the Newton operator does not map it into itself")
+        ends = []
+        for t in (first, last):
+            at_end = inverse * self._values(tube.line(t))
+            near = at_end + defect * spreads
+            near = at_end - defect * near
+            point = tube.line(t)
+            for k, i in enumerate(others):
+                point[i] = point[i] - near[k, 0]
+            ends.append(tuple(point))
+        return Tube(along, tube.low, tube.high, first, centre, slope, radius, *ends)
+
+    def _values(self, point: Sequence[arb]) -> arb_mat:
+        return arb_mat([[f.at(point)] for f in self.functions])
+
+    def _read(self, entry: Any) -> tuple[int, arb, arb, tuple[arb, ...], tuple[arb, ...], arb]:
+        """The numbers of a tube; raises `Rejected`."""
+        if isinstance(entry, list) and len(entry) == 6:
+            along, first, last, centre, slope, radius = entry
+            lists = [part for part in (centre, slope) if isinstance(part, list) and len(part) == self.size]
+            numbers = [along, first, last, radius, *(x for part in lists for x in part)]
+            whole = len(lists) == 2 and all(type(x) is int for x in numbers)
+            if whole and 0 <= along < self.size and radius > 0 and first != last:
+                a, b, r = _line((first, last, radius))
+                return along, a, b, _line(centre), _line(slope), r
+        raise Rejected(f"expected a tube of {self.size} coordinates, got {str(entry)[:80]}")
+
+
+def _over(coefficients: Sequence[arb], t: arb) -> arb:
+    """The values of a polynomial in one variable over a ball around zero."""
+    total = arb(0)
+    for c in reversed(coefficients):
+        total = total * t + c
+    return total
+
+
+def _line(numbers: Sequence[int]) -> tuple[arb, ...]:
+    return tuple(arb(fmpq(x, UNIT)) for x in numbers)
+
+
+def _check_bounded(at: RealSet, steps: Sequence[Any]) -> None:
+    """Whether all variables are bounded on the set, step by step; raises `Rejected`.
+
+    Each step is `[generator, names]`: in these variables the generator is a definite quadratic form, and
+    terms of lower degree with coefficients in variables that are known to be bounded.
+    """
+    known: set[int] = set()
+    for step in steps:
+        if len(step) != 2 or not isinstance(step[1], list) or not all(n in at.variables for n in step[1]):
+            raise Rejected(f"bounded: expected [generator, names], got {str(step)[:80]}")
+        f = chosen(at.generators, [step[0]], "generator")[0]
+        own = [at.variables.index(name) for name in step[1]]
+        form = [[fmpq(0)] * len(own) for _ in own]
+        for exponents, coefficient in f.terms():
+            inside = [k for k, i in enumerate(own) for _ in range(int(exponents[i]))]
+            others = {i for i, e in enumerate(exponents) if e and i not in own}
+            if len(inside) > 2 or others - known or (len(inside) == 2 and others):
+                raise Rejected(f"bounded: generator {step[0]} is not of this kind")
+            if len(inside) == 2:
+                i, j = inside
+                form[i][j] += coefficient / 2
+                form[j][i] += coefficient / 2
+        minors = [fmpq_mat([row[:k] for row in form[:k]]).det() for k in range(1, len(own) + 1)]
+        sign = 1 if minors and minors[0] > 0 else -1
+        if not all(m * sign**k > 0 for k, m in enumerate(minors, 1)):
+            raise Rejected(f"bounded: the form of generator {step[0]} is not definite")
+        known |= set(own)
+    if len(known) < len(at.variables):
+        raise Rejected("bounded: not all variables are seen to be bounded")
+
+
+def _critical_points(at: RealSet, data: Any) -> list[list[arb]]:
+    """Balls around points of the curve among which are all where a coordinate is largest on a component.
+
+    variable: the coordinate.  There the determinant of the gradients by the others vanishes, which is on the
+    curve `scale` times the product of the polynomials of `factors`, each with its own zeros: steps and
+    equations as of `derive`, and a chart as of the leaf `points`.
+    """
+    if not isinstance(data, Mapping) or data.get("variable") not in at.variables:
+        raise Rejected("critical: expected a variable of the set")
+    own = at.variables.index(data["variable"])
+    others = [i for i in range(len(at.variables)) if i != own]
+    rows = [[remainder(e.derivative(i), at.equations) for i in others] for e in at.generators]
+    product = at.context.constant(rational(data.get("scale", "1")))
+    factors = listed(data, "factors", dict)
+    parts = [polynomial(entry.get("polynomial", ""), at.context) for entry in factors]
+    for part, entry in zip(parts, factors, strict=True):
+        for _ in range(power(entry, "multiplicity")):
+            product = product * part
+    if not product or remainder(determinant(rows, at.equations) - product, at.equations):
+        raise Rejected("critical: the determinant is not seen to be this product")
+    found: list[list[arb]] = []
+    for part, entry in zip(parts, factors, strict=True):
+        (there,) = derive(at.within([part]), entry)
+        if any(e.is_constant() for e in there.equations if e):
+            continue
+        form, minimal, coordinates = chart_of(there, entry)
+        check_all(there, form, minimal, coordinates, power(entry))
+        with ctx.workprec(ROOT_BITS):
+            roots = real_roots(minimal)
+            found += [[ball(coordinates[name], root) for name in at.variables] for root in roots]
+    return found

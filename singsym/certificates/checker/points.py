@@ -1,0 +1,217 @@
+"""A leaf with finitely many points: all of them by one univariate polynomial, and what each is.
+
+Source: Rouillier, Solving zero-dimensional systems through the rational univariate representation (1999);
+real roots are isolated by FLINT's `arb_fmpz_poly_complex_roots`, which leaves them without an imaginary part.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from flint import arb, ctx, fmpq_mpoly, fmpq_poly
+
+from singsym.certificates.checker.polynomials import Rejected, polynomial, rational, remainder
+from singsym.certificates.checker.ranks import Defects, is_possible, types_of
+from singsym.certificates.checker.sets import MATRICES, RealSet, Statement, listed, power
+
+MOST_BITS = 4096
+
+
+def points(at: RealSet, about: Statement, line: Mapping[str, Any]) -> dict[str, int]:
+    """The number of real points of a set by their types; raises `Rejected`.
+
+    form: a linear polynomial u; minimal: rational coefficients, constant term first, of a polynomial m
+        without double roots; coordinates: of each variable those of a polynomial r.
+    Powers of m(u) and of x - r(u) have remainder zero by the equations, so that each point of the set is r
+    of a root; the roots at which an equation does not vanish, or a unit does, are left out.
+    """
+    form, minimal, coordinates = chart_of(at, line)
+    check_all(at, form, minimal, coordinates, power(line))
+    chart = _Chart(at, minimal, coordinates)
+    if (chart.value(form, minimal) - fmpq_poly([0, 1])) % minimal:
+        raise Rejected("form: it is not the root at its points")
+    there = minimal
+    for equation in at.generators:
+        there = there.gcd(chart.value(equation, there))
+    for unit in at.units:
+        there = there // there.gcd(chart.value(unit, there))
+    found: dict[str, int] = {}
+    for factor in _factors(there):
+        if roots := chart.feasible_roots(factor):
+            types = types_of(_defects(chart, about, factor))
+            found[types] = found.get(types, 0) + roots
+    return found
+
+
+def chart_of(at: RealSet, line: Mapping[str, Any]) -> tuple[fmpq_mpoly, fmpq_poly, dict[str, fmpq_poly]]:
+    """The polynomials `form`, `minimal` and `coordinates` of a line; raises `Rejected`."""
+    minimal = _univariate(listed(line, "minimal", str))
+    if minimal.degree() < 1 or minimal.gcd(minimal.derivative()).degree() > 0:
+        raise Rejected("minimal: expected a polynomial of positive degree without double roots")
+    given = line.get("coordinates")
+    if not isinstance(given, dict) or set(given) != set(at.variables):
+        raise Rejected(f"coordinates: expected one for each of {list(at.variables)}")
+    coordinates = {name: _univariate(given[name]) % minimal for name in at.variables}
+    return polynomial(line.get("form", ""), at.context), minimal, coordinates
+
+
+def _univariate(texts: Any) -> fmpq_poly:
+    if not isinstance(texts, list):
+        raise Rejected(f"expected a list of rationals, got {str(texts)[:80]}")
+    return fmpq_poly([rational(text) for text in texts])
+
+
+def _factors(f: fmpq_poly) -> list[fmpq_poly]:
+    """The irreducible factors of a polynomial without double roots."""
+    return [fmpq_poly(factor) for factor, _ in f.numer().factor()[1]] if f.degree() > 0 else []
+
+
+def check_all(
+    at: RealSet, form: fmpq_mpoly, minimal: fmpq_poly, coordinates: Mapping[str, fmpq_poly], exponent: int
+) -> None:
+    """Whether each complex point of the equations is one of the chart's; raises `Rejected`."""
+    powers = [at.context.constant(1)]
+    for _ in range(minimal.degree()):
+        powers.append(remainder(powers[-1] * form, at.equations))
+
+    def put(f: fmpq_poly) -> fmpq_mpoly:
+        return sum((p * c for p, c in zip(powers, f.coeffs(), strict=False)), start=at.context.constant(0))
+
+    gens = dict(zip(at.context.names(), at.context.gens(), strict=True))
+    for f in (put(minimal), *(gens[name] - put(r) for name, r in coordinates.items())):
+        product = at.context.constant(1)
+        for _ in range(exponent):
+            product = remainder(product * f, at.equations)
+        if product:
+            raise Rejected("there may be more points: a power is not seen to be in the ideal")
+
+
+class _Chart:
+    """The points r(u) of a set, for the roots u of a polynomial."""
+
+    def __init__(self, at: RealSet, minimal: fmpq_poly, coordinates: Mapping[str, fmpq_poly]) -> None:
+        self.at = at
+        zero = fmpq_poly([])
+        self.images = [coordinates.get(name, zero) for name in at.context.names()]
+
+    def value(self, f: fmpq_mpoly, modulus: fmpq_poly) -> fmpq_poly:
+        """f at r(u), modulo a polynomial in u."""
+        total = fmpq_poly([])
+        powers: dict[tuple[int, int], fmpq_poly] = {}
+        for exponents, coefficient in f.terms():
+            term = fmpq_poly([coefficient])
+            for i, e in enumerate(exponents):
+                for k in range(1, e + 1):
+                    if (i, k) not in powers:
+                        before = powers[i, k - 1] if k > 1 else fmpq_poly([1])
+                        powers[i, k] = (before * self.images[i]) % modulus
+                if e:
+                    term = (term * powers[i, e]) % modulus
+            total = total + term
+        return total % modulus
+
+    def feasible_roots(self, factor: fmpq_poly) -> int:
+        """How many real roots of an irreducible polynomial satisfy the inequalities."""
+        strict = [self.value(p, factor) for p in self.at.positive]
+        weak = [self.value(p, factor) for p in self.at.nonnegative]
+        if not all(strict):
+            return 0
+        signs = [value for value in (*strict, *weak) if value]
+        bits = 64
+        while bits <= MOST_BITS:
+            with ctx.workprec(bits):
+                roots = real_roots(factor)
+                decided = [[_sign(value, root) for value in signs] for root in roots]
+            if not any(0 in own for own in decided):
+                return sum(all(sign > 0 for sign in own) for own in decided)
+            bits *= 2
+        raise Rejected(f"a sign at a point is not seen with {MOST_BITS} bits")
+
+
+def real_roots(factor: fmpq_poly) -> list[arb]:
+    """The real roots of a polynomial without double roots, in balls of the precision that holds."""
+    roots: Any = factor.numer().complex_roots()
+    return [root.real for root, _ in roots if root.imag == 0]
+
+
+def ball(value: fmpq_poly, root: arb) -> arb:
+    """A ball around the value at a root."""
+    total = arb(0)
+    for c in reversed(value.coeffs()):
+        total = total * root + arb(c)
+    return total
+
+
+def _sign(value: fmpq_poly, root: arb) -> int:
+    """The sign of a value at a root, 0 where it is not seen."""
+    total = ball(value, root)
+    return 1 if total > 0 else -1 if total < 0 else 0
+
+
+def _defects(chart: _Chart, about: Statement, factor: fmpq_poly) -> Defects:
+    """The defects at the roots of an irreducible polynomial, one of them real, which are all alike."""
+    at = chart.at
+    values = [[chart.value(entry, factor) for entry in row] for row in at.matrix]
+    found = []
+    for name in MATRICES:
+        columns = at.columns_of(name)
+        rank = _rank([[row[j] for j in columns] for row in values], factor)
+        found.append(about.full_rank(name) - at.eliminated - rank)
+    delta, p, inputs, outputs = found
+    if min(found) < 0 or not is_possible((delta, p, inputs, outputs), about.n):
+        raise Rejected(f"defects {found} at a point: N and n are not those of L")
+    return delta, p, inputs, outputs
+
+
+def _rank(rows: Sequence[Sequence[fmpq_poly]], factor: fmpq_poly) -> int:
+    """The rank over the field Q[u]/(factor): that of balls at a root, where the bordering minors vanish."""
+    bits = 256
+    while bits <= MOST_BITS:
+        with ctx.workprec(bits):
+            own, columns = _pivots(rows, real_roots(factor)[0])
+        others = [i for i in range(len(rows)) if i not in own]
+        left = [j for j in range(len(rows[0]) if rows else 0) if j not in columns]
+        borders = (([*own, i], [*columns, j]) for i in others for j in left)
+        if all(not _minor(rows, r, c, factor) for r, c in borders):
+            return len(own)
+        bits *= 4
+    raise Rejected("the rank of a matrix at a point is not seen")
+
+
+def _pivots(rows: Sequence[Sequence[fmpq_poly]], root: arb) -> tuple[list[int], list[int]]:
+    """Rows and columns of a minor that does not vanish at a root: the pivots of balls without zero."""
+    left = [[ball(value, root) for value in row] for row in rows]
+    own: list[int] = []
+    columns: list[int] = []
+    while True:
+        free = [
+            (i, j)
+            for i, row in enumerate(left)
+            for j, entry in enumerate(row)
+            if i not in own and j not in columns and not entry.contains(0)
+        ]
+        if not free:
+            return own, columns
+        i, j = max(free, key=lambda place: float(abs(left[place[0]][place[1]]).mid()))
+        for k, row in enumerate(left):
+            if k != i and k not in own:
+                scale = row[j] / left[i][j]
+                left[k] = [a - scale * b for a, b in zip(row, left[i], strict=True)]
+        own.append(i)
+        columns.append(j)
+
+
+def _minor(
+    rows: Sequence[Sequence[fmpq_poly]], own: Sequence[int], columns: Sequence[int], factor: fmpq_poly
+) -> fmpq_poly:
+    """A minor modulo a polynomial, expanded by its first row."""
+    if not own:
+        return fmpq_poly([1])
+    total = fmpq_poly([])
+    for k, j in enumerate(columns):
+        entry = rows[own[0]][j]
+        if entry:
+            rest = _minor(rows, own[1:], [*columns[:k], *columns[k + 1 :]], factor)
+            total = total + entry * rest * (-1) ** k
+    return total % factor

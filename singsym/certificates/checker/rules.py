@@ -1,0 +1,113 @@
+"""The rules that take a set apart, into sets that have its points together and no point in common.
+
+Source: singsym's own; the steps of `derive` follow the practical algebraic calculus (Kaufmann, Fleury, Biere,
+Kauers 2022).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
+
+from flint import fmpq_mpoly
+
+from singsym.certificates.checker.polynomials import (
+    Rejected,
+    polynomial,
+    primitive,
+    rational,
+    remainder,
+    s_polynomial,
+)
+from singsym.certificates.checker.sets import RealSet, chosen, listed, power, whole_number
+
+Line = Mapping[str, Any]
+
+
+def unit_product(at: RealSet, line: Line) -> fmpq_mpoly:
+    """`scale` times the units of the places `units`, a polynomial that vanishes nowhere on the set."""
+    scale = rational(line.get("scale", "1"))
+    if not scale:
+        raise Rejected("scale: expected a number that is not zero")
+    product = at.context.constant(scale)
+    for unit in chosen(at.units, listed(line, "units"), "unit"):
+        product = product * unit
+    return product
+
+
+def is_unit(f: fmpq_mpoly, at: RealSet, line: Line) -> bool:
+    """Whether f is, on the set, the product that the line gives."""
+    return not remainder(f - unit_product(at, line), at.equations)
+
+
+def split(at: RealSet, line: Line) -> tuple[RealSet, ...]:
+    """Where `by` vanishes, and where it does not."""
+    by = polynomial(line.get("by", ""), at.context)
+    return at.within([by]), replace(at, units=(*at.units, by))
+
+
+def derive(at: RealSet, line: Line) -> tuple[RealSet, ...]:
+    """More equations from those there are, by S-polynomials and remainders; some may go.
+
+    steps: each `[places, divisors]`, one or two places; its result is the remainder of the polynomial, or of
+        the S-polynomial of the two, by the divisors, as a primitive polynomial.  Places count the equations,
+        then the results.
+    equations: the places of the new equations; each old one has remainder zero by these.
+    """
+    pool = list(at.equations)
+    for step in listed(line, "steps", list):
+        if len(step) != 2 or not all(isinstance(part, list) for part in step) or len(step[0]) not in (1, 2):
+            raise Rejected(f"steps: expected [places, divisors], got {str(step)[:80]}")
+        of = chosen(pool, step[0], "polynomial")
+        if len(of) == 2 and not all(of):
+            raise Rejected("steps: the S-polynomial of zero")
+        f = s_polynomial(*of) if len(of) == 2 else of[0]
+        pool.append(primitive(remainder(f, chosen(pool, step[1], "polynomial"))))
+    kept = listed(line, "equations")
+    new = tuple(chosen(pool, kept, "polynomial"))
+    for k, old in enumerate(at.equations):
+        if k not in kept and remainder(old, new):
+            raise Rejected(f"equation {k} does not follow from those that are kept")
+    return (replace(at, equations=new),)
+
+
+def cancel(at: RealSet, line: Line) -> tuple[RealSet, ...]:
+    """One more equation, of which a power times units is in the ideal of those there are."""
+    f = polynomial(line.get("polynomial", ""), at.context)
+    product = unit_product(at, line)
+    for _ in range(power(line)):
+        product = remainder(product * f, at.equations)
+    if product:
+        raise Rejected("the product is not seen to be in the ideal")
+    return (at.within([f]),)
+
+
+def pivot(at: RealSet, line: Line) -> tuple[RealSet, ...]:
+    """A row and a passive column less, by a pivot that vanishes nowhere: all four ranks are one less."""
+    i, j = whole_number(line, "row"), whole_number(line, "column")
+    row = chosen(at.matrix, [i], "row")[0]
+    entry = chosen(row, [j], "column")[0]
+    if at.roles[j] != "passive":
+        raise Rejected(f"column {j} is not passive")
+    if not is_unit(entry, at, line):
+        raise Rejected("the pivot is not seen to be the product of units")
+
+    def left(k: int) -> tuple[fmpq_mpoly, ...]:
+        other = at.matrix[k]
+        if not other[j]:
+            return tuple(e for c, e in enumerate(other) if c != j)
+        pairs = enumerate(zip(other, row, strict=True))
+        return tuple(remainder(entry * a - other[j] * b, at.equations) for c, (a, b) in pairs if c != j)
+
+    matrix = tuple(left(k) for k in range(len(at.matrix)) if k != i)
+    roles = tuple(role for c, role in enumerate(at.roles) if c != j)
+    return (replace(at, matrix=matrix, roles=roles, eliminated=at.eliminated + 1),)
+
+
+RULES: dict[str, Callable[[RealSet, Line], tuple[RealSet, ...]]] = {
+    "split": split,
+    "derive": derive,
+    "cancel": cancel,
+    "pivot": pivot,
+}

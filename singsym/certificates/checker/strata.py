@@ -1,0 +1,161 @@
+"""A leaf on which the types are constant: a point of it, and its dimension from below and from above.
+
+Source: Krawczyk (1969); Neumaier, Interval Methods for Systems of Equations (1990), theorem 5.1.8, for the
+box; implicit functions from below; from above Cox, Little, O'Shea, *Ideals, Varieties, and Algorithms*, 9.3:
+a variety is not larger than that of any leading monomials of polynomials of its ideal.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from flint import arb, arb_mat, ctx, fmpq, fmpq_mpoly
+
+from singsym.certificates.checker.polynomials import Rejected, polynomial, rational, remainder, ring
+from singsym.certificates.checker.rules import derive
+from singsym.certificates.checker.sets import RealSet, chosen, listed
+
+BITS = 200
+INVERSE = "inverse__"
+"""The name of the variable that is the inverse of a polynomial."""
+
+
+def dimension_above(at: RealSet) -> int:
+    """A bound of the dimension, by the leading monomials of the equations; -1 where one is constant."""
+    places = [at.context.names().index(name) for name in at.variables]
+    supports = []
+    for equation in at.equations:
+        if equation:
+            supports.append(frozenset(i for i, e in enumerate(equation.monomial(0)) if e))
+    if frozenset() in supports:
+        return -1
+    return len(places) - _fewest(supports, len(places))
+
+
+def _fewest(supports: list[frozenset[int]], most: int) -> int:
+    """The fewest variables of which each support has one; `most` where that many are not enough."""
+    if not supports:
+        return 0
+    if most == 0:
+        return 1
+    shortest = min(supports, key=lambda s: (len(s), sorted(s)))
+    best = most
+    for i in sorted(shortest):
+        best = min(best, 1 + _fewest([s for s in supports if i not in s], best - 1))
+    return best
+
+
+def dimension_below(at: RealSet, point: Mapping[str, Any]) -> int:
+    """That of the set near a point of it, of which a box is proven to hold one; raises `Rejected`.
+
+    fixed: variables with their rational values; centre: the others with numbers near theirs; radius: of the
+    box.
+    square: the places of as many equations.  The others follow from these near the point: by `implied`, see
+    `_check_implied`.
+    Where the box has a point, the gradients of the square system are independent, so that its zeros are a
+    manifold there, and the inequalities are strict.
+    """
+    fixed = {name: rational(value) for name, value in _named(point, "fixed").items()}
+    centre = {name: rational(value) for name, value in _named(point, "centre").items()}
+    if set(fixed) & set(centre) or {*fixed, *centre} != set(at.variables):
+        raise Rejected(f"point: expected a value for each of {list(at.variables)}")
+    square = listed(point, "square")
+    equations = chosen(at.equations, square, "equation")
+    if len(set(square)) != len(square) or len(equations) != len(centre):
+        raise Rejected("point: expected as many different equations as variables that are not fixed")
+    with ctx.workprec(BITS):
+        box = _box(at, equations, fixed, centre, rational(point.get("radius", "")))
+        for unit in at.units:
+            value = _value(unit, box)
+            if not (value > 0 or value < 0):
+                raise Rejected("a unit may vanish in the box")
+        for p in (*at.positive, *at.nonnegative):
+            if not _value(p, box) > 0:
+                raise Rejected("an inequality is not seen to be strict in the box")
+        if len(square) < len(at.equations):
+            _check_implied(at, square, point, box)
+    return len(fixed)
+
+
+def _named(point: Mapping[str, Any], key: str) -> dict[str, Any]:
+    value = point.get(key)
+    if not isinstance(value, dict):
+        raise Rejected(f"{key}: expected values by names, got {str(value)[:80]}")
+    return value
+
+
+def _box(
+    at: RealSet,
+    equations: list[fmpq_mpoly],
+    fixed: Mapping[str, fmpq],
+    centre: Mapping[str, fmpq],
+    radius: fmpq,
+) -> list[arb]:
+    """The values of all variables in a box in which the equations have exactly one zero."""
+    if radius <= 0:
+        raise Rejected("radius: expected a positive number")
+    names, unknowns = at.context.names(), list(centre)
+    middle = [arb(centre[n]) if n in centre else arb(fixed.get(n, fmpq(0))) for n in names]
+    wide = arb(0, arb(radius).upper())
+    box = [m + wide if n in centre else m for n, m in zip(names, middle, strict=True)]
+    if not unknowns:
+        return box
+    places = [names.index(n) for n in unknowns]
+    gradients = [[e.derivative(i) for i in places] for e in equations]
+    size = len(unknowns)
+    try:
+        inverse = arb_mat([[_value(g, middle) for g in row] for row in gradients]).inv()
+    except ZeroDivisionError:
+        raise Rejected("the square system is singular at the centre") from None
+    inverse = inverse.mid()
+    jacobian = arb_mat([[_value(g, box) for g in row] for row in gradients])
+    at_centre = arb_mat([[_value(e, middle)] for e in equations])
+    identity = arb_mat([[arb(int(i == j)) for j in range(size)] for i in range(size)])
+    spread = arb_mat([[wide] for _ in range(size)])
+    moved = (identity - inverse * jacobian) * spread - inverse * at_centre
+    for i in range(size):
+        if not abs(moved[i, 0]) < arb(radius):
+            raise Rejected("the Newton operator does not map the box into itself")
+    return box
+
+
+def _value(f: fmpq_mpoly, values: list[arb]) -> arb:
+    total = arb(0)
+    for exponents, coefficient in f.terms():
+        term = arb(coefficient)
+        for value, e in zip(values, exponents, strict=True):
+            # a power of a ball that holds zero would be none
+            for _ in range(int(e)):
+                term = term * value
+        total = total + term
+    return total
+
+
+def _check_implied(at: RealSet, square: list[Any], point: Mapping[str, Any], box: list[arb]) -> None:
+    """Whether all equations vanish where those of the square system do, near the point; raises `Rejected`.
+
+    implied: steps and equations as of `derive`, from the square system with one more variable, the inverse
+    of a unit, or of a polynomial that does not vanish in the box: the place `unit` of the units of the set,
+    or the polynomial `local`.
+    """
+    data = point.get("implied")
+    if not isinstance(data, dict):
+        raise Rejected("the other equations are not seen to vanish at the point")
+    names = at.context.names()
+    local = polynomial(data.get("local", "1"), at.context)
+    value = _value(local, box)
+    if not (value > 0 or value < 0):
+        raise Rejected("local: it may vanish in the box")
+    larger = ring([INVERSE, *names])
+    one = larger.constant(1)
+
+    def raised(f: fmpq_mpoly) -> fmpq_mpoly:
+        return f.project_to_context(larger)
+
+    start = [*(raised(at.equations[k]) for k in square), one - larger.gens()[0] * raised(local)]
+    derived = derive(replace(at, context=larger, equations=tuple(start)), data)[0]
+    for k, equation in enumerate(at.equations):
+        if k not in square and remainder(raised(equation), derived.equations):
+            raise Rejected(f"equation {k} is not seen to vanish at the point")

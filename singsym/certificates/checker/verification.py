@@ -1,0 +1,200 @@
+"""A certificate, from file to the table that it proves.
+
+Source: singsym's own; the format is in `docs/certificates.md`.
+"""
+
+from __future__ import annotations
+
+import gzip
+import json
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from singsym.certificates.checker.curves import components
+from singsym.certificates.checker.points import points
+from singsym.certificates.checker.polynomials import Rejected
+from singsym.certificates.checker.ranks import bounds_on, is_possible, possible_types, types_of
+from singsym.certificates.checker.rules import RULES
+from singsym.certificates.checker.sets import RealSet, Statement, chosen, listed, statement, whole_number
+from singsym.certificates.checker.strata import dimension_above, dimension_below
+from singsym.certificates.checker.table import Finding, Row, claimed_rows, contradicted, proven_row, unproven
+
+FORMAT = "singsym certificate 1"
+TRUSTED = (
+    "that L, the loop equations and the conditions are those of the mechanism",
+    "the arithmetic of FLINT: polynomials, factors over Q, roots, balls",
+    "this checker, and the Python that runs it",
+)
+"""What is taken on trust."""
+LEAVES = ("empty", "points", "ranks", "open")
+
+
+@dataclass(frozen=True)
+class Verification:
+    """What a certificate proves.
+
+    name: of the mechanism, as the certificate says; proven: one row for the types of each class; claimed:
+    what the certificate says it proves; missing: what of that it does not, with the reason; rules: how often
+    each was used; data: the statement that all this is about; trusted: what was not checked.
+    """
+
+    name: str
+    proven: tuple[Row, ...]
+    claimed: tuple[Row, ...]
+    missing: tuple[str, ...]
+    rules: Mapping[str, int]
+    data: Mapping[str, Any]
+    trusted: tuple[str, ...] = TRUSTED
+
+    @property
+    def complete(self) -> bool:
+        """Whether all of the table is proven."""
+        return not self.missing
+
+
+def verify(path: str | Path) -> Verification:
+    """Check a certificate, without any search.
+
+    Raises `Rejected`, a `ValueError`, with the line, for a file that is no certificate, or of which a step
+    is wrong or a claim disproven; `OSError` where it cannot be read.
+    """
+    lines = _lines(Path(path))
+    number, header = next(lines, (1, {}))
+    try:
+        if header.get("format") != FORMAT or not isinstance(header.get("name"), str):
+            raise Rejected(f"expected a file of the format {FORMAT!r}")
+        claims = claimed_rows(header.get("claims"))
+        number, data = next(lines, (2, {}))
+        about = statement(data)
+        proof = _Proof(about)
+        for entry in lines:
+            number = entry[0]
+            proof.add(entry[1])
+    except Rejected as error:
+        raise Rejected(f"line {number}: {error}") from None
+    findings = proof.findings()
+    proven = tuple(proven_row(types, findings) for types in all_types(about))
+    return Verification(
+        header["name"], proven, claims, tuple(_missing(claims, proven, proof)), proof.rules, data
+    )
+
+
+def _lines(path: Path) -> Iterator[tuple[int, dict[str, Any]]]:
+    """The lines with their numbers, from 1; raises `Rejected`."""
+    try:
+        text = gzip.decompress(path.read_bytes()).decode()
+    except (EOFError, gzip.BadGzipFile, UnicodeDecodeError, ValueError) as error:
+        raise Rejected(f"{path}: expected JSON lines, compressed by gzip: {error}") from None
+    except Exception as error:
+        if isinstance(error, OSError):
+            raise
+        raise Rejected(f"{path}: expected JSON lines, compressed by gzip: {error}") from None
+    for number, line in enumerate(text.splitlines(), 1):
+        try:
+            data = json.loads(line)
+        except (ValueError, RecursionError) as error:
+            raise Rejected(f"line {number}: {error}") from None
+        if not isinstance(data, dict):
+            raise Rejected(f"line {number}: expected an object")
+        yield number, data
+
+
+class _Proof:
+    """The tree under way: the sets that are not taken apart yet, by their numbers, and the leaves."""
+
+    def __init__(self, about: Statement) -> None:
+        self.about = about
+        self.open: dict[int, RealSet] = {0: about.whole}
+        self.why: dict[int, str] = {}
+        self.seen = {0}
+        self.done: list[Finding] = []
+        self.rules: Counter[str] = Counter()
+
+    def add(self, line: Mapping[str, Any]) -> None:
+        """One more line; raises `Rejected` where it is wrong."""
+        place, rule = whole_number(line, "at"), line.get("rule")
+        if place not in self.open:
+            raise Rejected(f"there is no set {place}, or it was taken apart before")
+        if rule in RULES:
+            parts, numbers = RULES[rule](self.open[place], line), listed(line, "into", int)
+            if len(numbers) != len(parts) or len({*numbers}) < len(parts) or self.seen & {*numbers}:
+                raise Rejected(f"into: expected {len(parts)} new numbers, got {numbers}")
+            self.open.update(zip(numbers, parts, strict=True))
+            self.seen.update(numbers)
+        elif rule == "open":
+            self.why[place] = str(line.get("why", ""))
+            self.rules["open"] += 1
+            return
+        elif rule in LEAVES:
+            self.done += _leaf(self.open[place], self.about, line)
+        else:
+            raise Rejected(f"rule: expected one of {', '.join((*RULES, *LEAVES))}, got {str(rule)[:80]}")
+        del self.open[place]
+        self.rules[rule] += 1
+
+    def findings(self) -> list[Finding]:
+        """What the leaves show; nothing is known of sets that are still open but their dimension."""
+        types = frozenset(all_types(self.about))
+        doubts = [Finding(at, types, None, -1, max(0, dimension_above(at))) for at in self.open.values()]
+        return [*self.done, *doubts]
+
+
+def _leaf(at: RealSet, about: Statement, line: Mapping[str, Any]) -> list[Finding]:
+    if line["rule"] == "empty":
+        _check_empty(at, line)
+        return []
+    if line["rule"] == "points":
+        return [Finding(at, frozenset([t]), k, 0, 0) for t, k in points(at, about, line).items()]
+    evidence = line.get("ranks")
+    if not isinstance(evidence, Mapping):
+        raise Rejected("ranks: expected evidence for matrices, by their names")
+    types = possible_types(bounds_on(at, about, evidence), about.n)
+    if not types:
+        raise Rejected("no defects are possible: N and n are not those of L")
+    low = -1
+    if (point := line.get("point")) is not None:
+        if not isinstance(point, Mapping):
+            raise Rejected(f"point: expected a box, got {str(point)[:80]}")
+        low = dimension_below(at, point)
+    parts = None if line.get("curve") is None else components(at, line["curve"])
+    return [Finding(at, types, None, low, dimension_above(at), parts)]
+
+
+def _check_empty(at: RealSet, line: Mapping[str, Any]) -> None:
+    """Whether an equation is a constant that is not zero; raises `Rejected`."""
+    f = chosen(at.equations, [line.get("equation")], "equation")[0]
+    if not f or not f.is_constant():
+        raise Rejected("the set is not seen to be empty")
+
+
+def all_types(about: Statement) -> list[str]:
+    """The types that configurations of this mobility can have, but for none."""
+    found: dict[str, None] = {}
+    # lowering all four defects by one keeps the types while delta, p > 1; |delta - p| <= n
+    for delta in range(about.n + 2):
+        for p in range(about.n + 2):
+            for inputs in range(2 * about.n + 2):
+                for outputs in range(2 * about.n + 2):
+                    if is_possible((delta, p, inputs, outputs), about.n):
+                        found[types_of((delta, p, inputs, outputs))] = None
+    return sorted(filter(None, found), key=lambda types: (len(types), types))
+
+
+def _missing(claims: tuple[Row, ...], proven: tuple[Row, ...], proof: _Proof) -> Iterator[str]:
+    by_types = {row.types: row for row in proven}
+    listed_types = [claim.types for claim in claims]
+    if len(set(listed_types)) < len(claims) or set(listed_types) - set(by_types):
+        raise Rejected("claims: expected a row for each types that there can be, each once")
+    for claim in claims:
+        if contradicted(claim, by_types[claim.types]):
+            raise Rejected(f"claims: {claim.text()}; proven is {by_types[claim.types].text()}")
+        for what in unproven(claim, by_types[claim.types]):
+            yield f"{claim.types}: {what}"
+    for types in by_types:
+        if types not in listed_types:
+            yield f"{types}: no row of the claims"
+    for place in proof.open:
+        yield f"set {place} is left open: {proof.why.get(place, 'the certificate ends before')}"

@@ -1,0 +1,167 @@
+"""A point of a set in a box, as the leaf `ranks` has it, and the dimension that it shows.
+
+Source: Newton's method from numerical points, which prove nothing; the checker's Krawczyk test does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from decimal import Decimal
+from fractions import Fraction
+from typing import Any
+
+from flint import arb, arb_mat, ctx, fmpq, fmpq_mpoly
+
+from singsym.certificates.checker.polynomials import Rejected, polynomial, remainder, ring
+from singsym.certificates.checker.sets import RealSet
+from singsym.certificates.checker.strata import BITS, INVERSE, dimension_below
+from singsym.certificates.prover.traced_basis import traced_basis
+from singsym.effort.attempts import attempt
+from singsym.effort.budget import Undecided
+from singsym.polynomials import Polynomial, Ring
+from singsym.varieties.real.numerical.sampling import numerical_points
+from singsym.varieties.real.system import RealSystem
+
+GRIDS = (8, 64, 2**12, 2**24)
+"""Coordinates that are held are rounded to one over one of these."""
+STEPS = 12
+DIGITS = 30
+RADIUS = Fraction(1, 10**20)
+FOLLOWS = 20.0
+"""Seconds of work in which the other equations are to follow from the square system."""
+
+
+def point_leaf(at: RealSet, near: Sequence[Sequence[float]]) -> tuple[dict[str, Any], int] | None:
+    """A point of a set, and the dimension of the set near it; None where none is found.
+
+    near: numerical points that may be of it; others are looked for where none of them is.
+    """
+    for start in _starts(at, near):
+        rows, columns = _independent(at, start)
+        for grid in GRIDS:
+            data = _boxed(at, start, rows, columns, grid)
+            if data is None:
+                continue
+            if len(rows) < len(at.equations):
+                implied = _implied(at, rows)
+                if implied is None:
+                    break
+                data["implied"] = implied
+            try:
+                return data, dimension_below(at, data)
+            except Rejected:
+                continue
+    return None
+
+
+def _starts(at: RealSet, near: Sequence[Sequence[float]]) -> Iterator[Sequence[float]]:
+    own = Ring(at.variables)
+
+    def raised(polynomials: Sequence[fmpq_mpoly]) -> tuple[Polynomial, ...]:
+        return tuple(Polynomial(own, p) for p in polynomials)
+
+    equations = raised([e for e in at.equations if e])
+    exclusions = tuple((p,) for p in raised(at.units))
+    positive, nonnegative = raised(at.positive), raised(at.nonnegative)
+    for point in near:
+        small = all(abs(e.evaluate(point)) < 1e-6 * _largest(e, point) for e in equations)
+        off = all(abs(g.evaluate(point)) > 1e-6 * _largest(g, point) for (g,) in exclusions)
+        if small and off and all(p.evaluate(point) > 0 for p in (*positive, *nonnegative)):
+            yield point
+    yield from numerical_points(RealSystem(own, equations, exclusions, positive, nonnegative))
+
+
+def _largest(f: Polynomial, point: Sequence[float]) -> float:
+    """The size of the largest term at a point, at least 1."""
+    sizes = [1.0]
+    for exponents, coefficient in f.terms():
+        size = abs(float(coefficient.p) / float(coefficient.q))
+        for x, e in zip(point, exponents, strict=True):
+            size *= abs(x) ** int(e)
+        sizes.append(size)
+    return max(sizes)
+
+
+def _independent(at: RealSet, point: Sequence[float]) -> tuple[list[int], list[int]]:
+    """The first equations with independent gradients, and as many variables to be solved for."""
+    import numpy
+
+    own = Ring(at.variables)
+    slopes = [[Polynomial(own, e.derivative(i)) for i in range(len(point))] for e in at.equations]
+    gradients = [[float(slope.evaluate(point)) for slope in row] for row in slopes]
+    rows: list[int] = []
+    basis: list[Any] = []
+    for k, gradient in enumerate(gradients):
+        vector = numpy.array(gradient)
+        size = numpy.linalg.norm(vector)
+        for b in basis:
+            vector = vector - (vector @ b) * b
+        if size and numpy.linalg.norm(vector) > 1e-6 * size:
+            rows.append(k)
+            basis.append(vector / numpy.linalg.norm(vector))
+    left = numpy.array([gradients[k] for k in rows]).reshape(len(rows), len(point))
+    columns: list[int] = []
+    for _ in rows:
+        j = int(numpy.argmax(numpy.abs(left).max(axis=0)))
+        i = int(numpy.argmax(numpy.abs(left[:, j])))
+        columns.append(j)
+        left = left - numpy.outer(left[:, j] / left[i, j], left[i])
+        left[i] = 0
+    return rows, sorted(columns)
+
+
+def _boxed(
+    at: RealSet, start: Sequence[float], rows: list[int], columns: list[int], grid: int
+) -> dict[str, Any] | None:
+    """The box near a numerical point, the other coordinates held at rationals; None if Newton fails."""
+    names = at.variables
+    fixed = {k: Fraction(round(start[k] * grid), grid) for k in range(len(names)) if k not in columns}
+    own = Ring(at.variables)
+    equations = [Polynomial(own, at.equations[k]) for k in rows]
+    gradients = [[e.derivative(names[j]) for j in columns] for e in equations]
+    with ctx.workprec(BITS):
+        held = {k: arb(fmpq(*value.as_integer_ratio())) for k, value in fixed.items()}
+        values = [held.get(k, arb(x)) for k, x in enumerate(start)]
+        for _ in range(STEPS if rows else 0):
+            slope = arb_mat([[arb(g.evaluate(values)) for g in row] for row in gradients])
+            try:
+                step = slope.solve(arb_mat([[arb(e.evaluate(values))] for e in equations]))
+            except ZeroDivisionError:
+                return None
+            for i, j in enumerate(columns):
+                values[j] = (values[j] - step[i, 0]).mid()
+        if not all(abs(values[j] - arb(start[j])) < 0.5 for j in columns):
+            return None
+        centre = {names[j]: _text(Fraction(Decimal(values[j].str(DIGITS, radius=False)))) for j in columns}
+    return {
+        "fixed": {names[k]: _text(value) for k, value in fixed.items()},
+        "centre": centre,
+        "radius": _text(RADIUS),
+        "square": rows,
+    }
+
+
+def _text(value: Fraction) -> str:
+    return str(value)
+
+
+def _implied(at: RealSet, rows: list[int]) -> dict[str, Any] | None:
+    """How the other equations follow from the square system off the zeros of units; None where they do not.
+
+    First without units, then with all of them.
+    """
+    larger = ring([INVERSE, *at.variables])
+    gen = larger.gens()[0]
+    product = at.context.constant(1)
+    for unit in at.units:
+        product = product * unit
+    square = [at.equations[k].project_to_context(larger) for k in rows]
+    others = [e.project_to_context(larger) for k, e in enumerate(at.equations) if k not in rows]
+    for local in dict.fromkeys(map(str, (at.context.constant(1), product))):
+        start = [*square, 1 - gen * polynomial(local, at.context).project_to_context(larger)]
+        failures: list[Undecided] = []
+        with attempt("that equations follow from others", FOLLOWS, failures=failures) as budget:
+            found = traced_basis(start, budget)
+        if not failures and not any(remainder(e, found.basis) for e in others):
+            return {"local": local, "steps": found.steps, "equations": found.equations}
+    return None

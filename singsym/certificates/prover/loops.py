@@ -1,0 +1,226 @@
+"""The components of a smooth bounded curve as closed chains of tubes, as the leaf `ranks` has them.
+
+Source: predictor and corrector (Allgower, Georg, Introduction to Numerical Continuation Methods, 2003);
+what they find proves nothing, the checker's tubes do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy
+from flint import ctx, fmpq_mpoly
+from numpy.typing import NDArray
+
+from singsym.certificates.checker.curves import BITS, ROOT_BITS, UNIT, Tube, Tubes
+from singsym.certificates.checker.points import ball, chart_of, real_roots
+from singsym.certificates.checker.polynomials import Rejected, determinant, remainder
+from singsym.certificates.checker.sets import RealSet
+from singsym.certificates.prover.finite import points_leaf
+from singsym.effort.budget import Undecided, current
+from singsym.polynomials import Polynomial, Ring
+from singsym.polynomials.compiled_map import CompiledMap
+
+Floats = NDArray[numpy.float64]
+Based = Callable[[RealSet], tuple[RealSet, dict[str, Any]]]
+"""A Groebner basis of a set's equations: the set with it, and the steps of `derive`."""
+
+FIRST_STEP, LEAST_STEP, LARGEST_STEP = 0.2, 1e-4, 0.5
+MOST_TUBES = 4000
+SHORTER = 0.3
+OVERLAP = 0.08
+"""Tubes go on beyond both ends by this part of their length."""
+WIDTHS = (4.0, 8.0)
+"""Radii that are tried, as multiples of how far the curve is from the line."""
+NARROWEST = 1e-6
+
+
+def curve_leaf(at: RealSet, based: Based) -> dict[str, Any] | None:
+    """`bounded`, `critical` and `loops` of a curve; None where it is not one that the checker counts.
+
+    Raises `Undecided` where arcs are not closed in time.
+    """
+    if len(at.generators) != len(at.variables) - 1 or at.positive or at.nonnegative:
+        return None
+    bounded = _bounded(at)
+    if bounded is None:
+        return None
+    critical, points = _critical(at, based)
+    if critical is None:
+        return None
+    tracker = _Tracker(at)
+    loops: list[list[Any]] = []
+    with ctx.workprec(BITS):
+        known: list[Tube] = []
+        for root in points:
+            if any(tube.holds(root) for tube in known):
+                continue
+            entries, tubes = tracker.loop(numpy.array([float(x.mid()) for x in root]))
+            loops.append(entries)
+            known += tubes
+    return {"bounded": bounded, "critical": critical, "loops": loops}
+
+
+def _bounded(at: RealSet) -> list[list[Any]] | None:
+    """Generators, each with the variables that it bounds, in order; None where that does not reach all."""
+    known: set[int] = set()
+    steps: list[list[Any]] = []
+    size = len(at.variables)
+    while len(known) < size:
+        for place, f in enumerate(at.generators):
+            own = [i for i, d in enumerate(f.degrees()) if d and i not in known]
+            if own and _is_definite(f, own):
+                steps.append([place, [at.variables[i] for i in own]])
+                known |= set(own)
+                break
+        else:
+            return None
+    return steps
+
+
+def _is_definite(f: fmpq_mpoly, own: Sequence[int]) -> bool:
+    """Whether a polynomial is a definite quadratic form in some variables, up to terms of lower degree."""
+    form = numpy.zeros((len(own), len(own)))
+    for exponents, coefficient in f.terms():
+        inside = [k for k, i in enumerate(own) for _ in range(int(exponents[i]))]
+        outside = sum(map(int, exponents)) - len(inside)
+        if len(inside) > 2 or (len(inside) == 2 and outside):
+            return False
+        if len(inside) == 2:
+            form[inside[0], inside[1]] += float(coefficient.p) / float(coefficient.q) / 2
+            form[inside[1], inside[0]] += float(coefficient.p) / float(coefficient.q) / 2
+    values = numpy.linalg.eigvalsh(form)
+    return bool(values.min() > 1e-9 or values.max() < -1e-9)
+
+
+def _critical(at: RealSet, based: Based) -> tuple[dict[str, Any] | None, list[Any]]:
+    """Critical points of a coordinate of which there are finitely many, and balls around the real ones."""
+    for own in reversed(range(len(at.variables))):
+        others = [i for i in range(len(at.variables)) if i != own]
+        # not reduced, as it comes apart into factors then
+        found = determinant([[e.derivative(i) for i in others] for e in at.generators], [])
+        if not remainder(found, at.equations):
+            continue
+        entries = []
+        balls: list[Any] = []
+        for part, multiplicity in sorted(found.factor()[1], key=lambda pair: len(pair[0])):
+            there, steps = based(at.within([part]))
+            entry = {"polynomial": str(part), "multiplicity": int(multiplicity), **steps}
+            if not any(e.is_constant() for e in there.equations if e):
+                if not _is_finite(there):
+                    break
+                entry |= points_leaf(there)
+                _, minimal, coordinates = chart_of(there, entry)
+                with ctx.workprec(ROOT_BITS):
+                    roots = real_roots(minimal)
+                    balls += [[ball(coordinates[n], root) for n in at.variables] for root in roots]
+            entries.append(entry)
+        else:
+            scale = found.factor()[0]
+            return {"variable": at.variables[own], "scale": str(scale), "factors": entries}, balls
+    return None, []
+
+
+def _is_finite(at: RealSet) -> bool:
+    leading = [e.monomial(0) for e in at.equations if e]
+    return all(any(sum(m) == m[i] for m in leading) for i in range(len(at.variables)))
+
+
+class _Tracker:
+    """Arcs of one curve."""
+
+    def __init__(self, at: RealSet) -> None:
+        ring = Ring(at.variables)
+        self.map = CompiledMap([Polynomial(ring, e) for e in at.generators], ring)
+        self.tubes = Tubes(at)
+        self.size = len(at.variables)
+
+    def loop(self, start: Floats) -> tuple[list[Any], list[Tube]]:
+        """The tubes of the component through a point; raises `Undecided`."""
+        start = self._corrected(start, self._tangent(start, None))
+        first = direction = self._tangent(start, None)
+        x, step = start, FIRST_STEP
+        entries: list[Any] = []
+        tubes: list[Tube] = []
+        before: list[tuple[Floats, Floats, float]] = []
+        while len(tubes) < MOST_TUBES:
+            current().check("the components of a curve for a certificate")
+            ahead = start - x
+            near = ahead @ direction > 0 and numpy.linalg.norm(ahead) < 1.5 * step
+            closing = bool(len(tubes) > 1 and near and direction @ first > 0.5)
+            y = start if closing else self._corrected(x + step * direction, direction)
+            made = self._tube(x, y, direction)
+            if made is None or not self._joined(tubes, made[1], closing):
+                step /= 2
+                if before and step < SHORTER * before[-1][2]:
+                    # a tube so much shorter does not reach over the overlap: the last one is made anew
+                    x, direction, step = before.pop()
+                    del entries[-1], tubes[-1]
+                    step /= 2
+                if step < LEAST_STEP:
+                    raise Undecided("an arc of a curve is not followed by tubes")
+                continue
+            before.append((x, direction, step))
+            entries.append(made[0])
+            tubes.append(made[1])
+            if closing:
+                return entries, tubes
+            x, direction = y, self._tangent(y, direction)
+            step = min(1.5 * step, LARGEST_STEP)
+        raise Undecided(f"a curve takes more than {MOST_TUBES} tubes")
+
+    @staticmethod
+    def _joined(before: Sequence[Tube], new: Tube, closing: bool) -> bool:
+        """Whether the last tube leads into a new one, and that into the first where it closes the loop."""
+        neighbours = [(before[-1], new)] if before else []
+        neighbours += [(new, before[0])] if closing else []
+        return all(one.holds(two.start) and two.holds(one.end) for one, two in neighbours)
+
+    def _tangent(self, x: Floats, before: Floats | None) -> Floats:
+        direction: Floats = numpy.linalg.svd(self.map.jacobian(x))[2][-1]
+        return -direction if before is not None and direction @ before < 0 else direction
+
+    def _corrected(self, x: Floats, normal: Floats) -> Floats:
+        """The point of the curve near another, in the hyperplane through it."""
+        for _ in range(8):
+            matrix = numpy.vstack([self.map.jacobian(x), normal])
+            try:
+                x = x - numpy.linalg.solve(matrix, numpy.append(self.map.values(x), 0.0))
+            except numpy.linalg.LinAlgError:
+                raise Undecided("a curve is singular near an arc") from None
+        return x
+
+    def _tube(self, x: Floats, y: Floats, direction: Floats) -> tuple[Any, Tube] | None:
+        """A tube from one point to the next, over the coordinate that changes most, if it is proven."""
+        secant = y - x
+        along = int(numpy.argmax(numpy.abs(secant)))
+        if not abs(secant[along]) > 1e-7:
+            return None
+        slope = secant / secant[along]
+        first, last = x[along] - OVERLAP * secant[along], y[along] + OVERLAP * secant[along]
+        away = max(self._away(x, slope, along, t) for t in (first, (first + last) / 2, last))
+        base = x + slope * (first - x[along])
+        for width in WIDTHS:
+            radius = max(width * away, NARROWEST)
+            entry = [along, _whole(first), _whole(last), _wholes(base), _wholes(slope), _whole(radius)]
+            try:
+                return entry, self.tubes.tube(entry)
+            except Rejected:
+                continue
+        return None
+
+    def _away(self, x: Floats, slope: Floats, along: int, t: float) -> float:
+        """How far the curve is from the line over a value of a coordinate."""
+        on_line = x + slope * (t - x[along])
+        normal = numpy.zeros(self.size)
+        normal[along] = 1.0
+        return float(numpy.abs(self._corrected(on_line, normal) - on_line).max())
+
+
+def _whole(number: float) -> int:
+    return round(number * UNIT)
+
+
+def _wholes(numbers: Floats) -> list[int]:
+    return [_whole(float(x)) for x in numbers]

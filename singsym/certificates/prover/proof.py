@@ -1,0 +1,251 @@
+"""The proof of a table: the configuration space taken apart until the types of each part are known.
+
+Source: Zlatanov, Fenton, Benhabib (1998), section 3.2: loci of (4) and (5) first, then those of further
+minors.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import combinations
+from math import comb
+from typing import Any
+
+from flint import fmpq_mpoly
+
+from singsym.certificates.checker.polynomials import Rejected, remainder
+from singsym.certificates.checker.ranks import bounds_on, possible_types
+from singsym.certificates.checker.rules import derive
+from singsym.certificates.checker.sets import RealSet, Statement
+from singsym.certificates.checker.strata import dimension_above
+from singsym.certificates.prover.boxes import point_leaf
+from singsym.certificates.prover.finite import points_leaf
+from singsym.certificates.prover.loops import curve_leaf
+from singsym.certificates.prover.traced_basis import traced_basis
+from singsym.certificates.prover.tree import Node, Tree
+from singsym.certificates.prover.unit_products import open_factors, product_of_units, unit_form
+from singsym.effort.attempts import attempt
+from singsym.effort.budget import Undecided, current
+from singsym.elimination.ideal import Ideal
+from singsym.polynomials import Polynomial, Ring
+
+PART, WHOLE = 60.0, 600.0
+"""Seconds of work for one part of the configuration space, and for all of it."""
+HIGHEST_POWER = 4
+MOST_MINORS = 400
+
+
+@dataclass(frozen=True)
+class Hints:
+    """What is known beforehand, none of it as a proof.
+
+    loci: polynomials to split on; products: multiples of determinants, on the configuration space; points:
+    numerical configurations; curves: whether components of curves are wanted.
+    """
+
+    loci: tuple[fmpq_mpoly, ...] = ()
+    products: tuple[fmpq_mpoly, ...] = ()
+    points: tuple[tuple[float, ...], ...] = ()
+    curves: bool = False
+
+
+def prove(about: Statement, hints: Hints) -> list[dict[str, Any]]:
+    """The lines of a proof; parts on which none is found are left open, with the reason."""
+    prover = _Prover(Tree(about), hints)
+    prover.attempted(lambda: prover.take_apart(prover.reduced(prover.tree.root), hints.loci), WHOLE)
+    closed = {line["at"] for line in prover.tree.lines}
+    why = "; ".join(dict.fromkeys(map(str, prover.failures)))
+    left = [number for number in range(prover.tree.numbers + 1) if number not in closed]
+    return [*prover.tree.lines, *({"at": number, "rule": "open", "why": why} for number in left)]
+
+
+@dataclass
+class _Prover:
+    """A proof under way; failures: why parts are left open."""
+
+    tree: Tree
+    hints: Hints
+    failures: list[Undecided] = field(default_factory=list)
+
+    def attempted(self, work: Callable[[], None], most: float = PART) -> None:
+        """Do what may not end in time; then parts of what it was for stay open."""
+        with attempt("a certificate", most, failures=self.failures):
+            try:
+                work()
+            except Rejected as error:
+                raise Undecided(f"the checker would not follow: {error}") from None
+
+    def reduced(self, node: Node) -> Node:
+        """The set with a smaller matrix: passive columns go with pivots that are products of units."""
+        while (found := _pivot(node.at)) is not None:
+            (node,) = self.tree.apply(node, "pivot", **found)
+        return node
+
+    def take_apart(self, node: Node, loci: Sequence[fmpq_mpoly]) -> None:
+        """A set split on loci in turn."""
+        for k, locus in enumerate(loci):
+            by = remainder(locus, node.at.equations)
+            if not by or product_of_units(by, node.at) is not None:
+                continue
+            split = self._split(node, by, loci[k + 1 :])
+            if split is None:
+                return
+            node = split
+        self.attempted(lambda: self._ranked(node))
+
+    def _split(self, node: Node, by: fmpq_mpoly, loci: Sequence[fmpq_mpoly]) -> Node | None:
+        """What is left of a set off the zeros of a polynomial, which are dealt with; None if it is empty."""
+        zero, rest = self.tree.apply(node, "split", by=str(by))
+        self.attempted(lambda: self._on_locus(zero, loci))
+        return None if self._is_empty(rest) else rest
+
+    def _on_locus(self, node: Node, loci: Sequence[fmpq_mpoly]) -> None:
+        """A set with one more equation."""
+        node = self._based(node)
+        if self._is_empty(node):
+            return
+        if dimension_above(node.at) == 0:
+            self.tree.leaf(node, "points", **points_leaf(node.at))
+        else:
+            self.take_apart(node, loci)
+
+    def _based(self, node: Node) -> Node:
+        """The set with a Groebner basis among its equations."""
+        if node.based:
+            return node
+        (node,) = self.tree.apply(node, "derive", **_basis_steps(node.at))
+        return replace(node, based=True)
+
+    def _is_empty(self, node: Node) -> bool:
+        """Whether a set is seen to be empty; then it is closed."""
+        at = node.at
+        for place, equation in enumerate(at.equations):
+            if equation and equation.is_constant():
+                self.tree.leaf(node, "empty", equation=place)
+                return True
+        ways = [[place] for place in range(len(at.units))]
+        ways += [list(range(len(at.units)))] if len(at.units) > 1 else []
+        for way in ways:
+            product = at.context.constant(1)
+            for power in range(1, HIGHEST_POWER + 1):
+                for place in way:
+                    product = remainder(product * at.units[place], at.equations)
+                if not product:
+                    data = {"polynomial": "1", "units": way * power, "power": 1}
+                    (node,) = self.tree.apply(node, "cancel", **data)
+                    self.tree.leaf(node, "empty", equation=len(node.at.equations) - 1)
+                    return True
+        return False
+
+    # -- ranks ---------------------------------------------------------------------------------------
+
+    def _ranked(self, node: Node) -> None:
+        """A leaf with the ranks of a set, or the set split where a minor vanishes."""
+        node = self._based(node)
+        if self._is_empty(node):
+            return
+        at, evidence = node.at, dict[str, list[dict[str, Any]]]()
+        for name, exact in _questions(at, self.tree.about):
+            if len(self._types(at, evidence)) == 1:
+                break
+            found = self._rank(at, name, exact)
+            if isinstance(found, dict):
+                evidence.setdefault(name, []).append(found)
+            else:
+                rest = self._split(node, found, ())
+                if rest is not None:
+                    self._ranked(rest)
+                return
+        types = self._types(at, evidence)
+        if not types:
+            raise Undecided("the rank of a matrix is not seen to be at most N")
+        data: dict[str, Any] = {"ranks": evidence}
+        if types != {""} and (point := point_leaf(at, self.hints.points)) is not None:
+            data["point"] = point[0]
+            if point[1] == 1 == dimension_above(at) and self.hints.curves:
+                with attempt("components of a curve", PART, failures=self.failures):
+                    if (curve := curve_leaf(at, _based)) is not None:
+                        data["curve"] = curve
+        self.tree.leaf(node, "ranks", **data)
+
+    def _types(self, at: RealSet, evidence: Mapping[str, Any]) -> frozenset[str]:
+        """The types that are left; none where a rank is not seen to be at most N yet."""
+        try:
+            return possible_types(bounds_on(at, self.tree.about, evidence), self.tree.about.n)
+        except Rejected:
+            return frozenset()
+
+    def _rank(self, at: RealSet, name: str, exact: bool) -> dict[str, Any] | fmpq_mpoly:
+        """Evidence for the rank of a matrix on a set, or a polynomial to split on.
+
+        exact: the rank itself, not only whether it is full.
+        """
+        columns = at.columns_of(name)
+        rows = [[remainder(row[j], at.equations) for j in columns] for row in at.matrix]
+        most = min(len(rows), len(columns))
+        for size in range(most, 0, -1):
+            left: list[list[fmpq_mpoly]] = []
+            for own, chosen, block in _blocks(rows, size):
+                form = unit_form(block, at, self.hints.products)
+                if form is not None:
+                    full = {} if size == most else {"exact": True}
+                    return {"rows": own, "columns": chosen, **form, **full}
+                if factors := open_factors(block, at, self.hints.products):
+                    left.append(factors)
+            if left:
+                return min(left, key=lambda own: (len(own), len(own[0])))[0]
+            if not exact:
+                return {"below": size}
+        return {"below": 1}
+
+
+def _basis_steps(at: RealSet) -> dict[str, Any]:
+    """The rule `derive` to a Groebner basis, and the equations there are where they are not all of it."""
+    own = Ring(at.variables)
+    ideal = Ideal(own, [Polynomial(own, e) for e in at.equations if e])
+    target = [tuple(map(int, m)) for m in ideal.leading_monomials().value]
+    found = traced_basis(at.equations, current(), target)
+    is_unit = bool(found.basis) and found.basis[0].is_constant()
+    kept = [] if is_unit else [k for k in range(len(at.equations)) if k not in found.equations]
+    return {"steps": found.steps, "equations": [*kept, *found.equations]}
+
+
+def _based(at: RealSet) -> tuple[RealSet, dict[str, Any]]:
+    """The set with a Groebner basis, and the steps to it."""
+    steps = _basis_steps(at)
+    return derive(at, steps)[0], steps
+
+
+def _questions(at: RealSet, about: Statement) -> Iterator[tuple[str, bool]]:
+    """The ranks in the order in which they are asked for, and whether exactly."""
+    if len(at.matrix) > about.N - at.eliminated:
+        yield "L", True
+    yield from (("L_I", False), ("L_O", False), ("L", True), ("L_p", True), ("L_I", True), ("L_O", True))
+
+
+def _blocks(
+    rows: Sequence[Sequence[fmpq_mpoly]], size: int
+) -> Iterator[tuple[list[int], list[int], list[list[fmpq_mpoly]]]]:
+    """The square blocks of a size, with their rows and columns; raises `Undecided` where there are many."""
+    width = len(rows[0]) if rows else 0
+    if comb(len(rows), size) * comb(width, size) > MOST_MINORS:
+        raise Undecided(f"a matrix has more than {MOST_MINORS} minors of size {size}")
+    for own in combinations(range(len(rows)), size):
+        for columns in combinations(range(width), size):
+            yield list(own), list(columns), [[rows[i][j] for j in columns] for i in own]
+
+
+def _pivot(at: RealSet) -> dict[str, Any] | None:
+    """The pivot in a passive column that leaves the fewest entries, constants first."""
+    best: tuple[tuple[int, ...], dict[str, Any]] | None = None
+    for j in (j for j, role in enumerate(at.roles) if role == "passive"):
+        below = [i for i, row in enumerate(at.matrix) if row[j]]
+        for i in below:
+            row = at.matrix[i]
+            entry = row[j]
+            cost = (len(below) - 1) * (sum(map(bool, row)) - 1)
+            key = (int(not entry.is_constant()), cost, sum(map(len, row)))
+            if (best is None or key < best[0]) and (form := product_of_units(entry, at)) is not None:
+                best = key, {"row": i, "column": j, **form}
+    return None if best is None else best[1]

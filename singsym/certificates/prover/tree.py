@@ -1,0 +1,50 @@
+"""A certificate under way: lines, and the sets that they lead to, as the checker sees them.
+
+Source: the rules of `checker`, which are applied to each line as it is written.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from singsym.certificates.checker.rules import RULES
+from singsym.certificates.checker.sets import RealSet, Statement
+
+
+@dataclass(frozen=True)
+class Node:
+    """A set and its number; based: whether its equations hold a Groebner basis of their ideal."""
+
+    number: int
+    at: RealSet
+    based: bool = False
+
+
+@dataclass
+class Tree:
+    """The lines so far."""
+
+    about: Statement
+    lines: list[dict[str, Any]] = field(default_factory=list)
+    numbers: int = 0
+
+    @property
+    def root(self) -> Node:
+        """The whole configuration space."""
+        return Node(0, self.about.whole)
+
+    def apply(self, node: Node, rule: str, **data: Any) -> tuple[Node, ...]:
+        """A set taken apart by a rule; raises `checker.polynomials.Rejected` where the checker would."""
+        parts = RULES[rule](node.at, data)
+        numbers = list(range(self.numbers + 1, self.numbers + 1 + len(parts)))
+        self.numbers += len(parts)
+        self.lines.append({"at": node.number, "rule": rule, **data, "into": numbers})
+        return tuple(
+            Node(number, part, node.based and part.equations == node.at.equations)
+            for number, part in zip(numbers, parts, strict=True)
+        )
+
+    def leaf(self, node: Node, rule: str, **data: Any) -> None:
+        """The end of a set; what is claimed is not checked here."""
+        self.lines.append({"at": node.number, "rule": rule, **data})

@@ -1,0 +1,100 @@
+"""From a classification to its certificate, and to the file.
+
+Source: singsym's own; the format is in `docs/certificates.md`.
+"""
+
+from __future__ import annotations
+
+import gzip
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from singsym.certificates.checker.sets import statement
+from singsym.certificates.checker.verification import FORMAT
+from singsym.certificates.prover.proof import Hints, prove
+from singsym.classes.result import Classification, ClassResult
+from singsym.classes.taxonomy.types import feasible_classes
+from singsym.conditions.conditions import Conditions, conditions
+from singsym.kinematics.velocity import VelocityEquation
+from singsym.polynomials import Polynomial
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """The lines of a certificate: header, statement, and the proof."""
+
+    lines: tuple[dict[str, Any], ...]
+
+    def write(self, path: str | Path) -> Path:
+        """Write JSON lines, compressed; raises `OSError`.  Equal certificates give equal files."""
+        text = "".join(json.dumps(line, separators=(",", ":")) + "\n" for line in self.lines)
+        target = Path(path)
+        target.write_bytes(gzip.compress(text.encode(), mtime=0))
+        return target
+
+
+def certificate(result: Classification) -> Certificate:
+    """The certificate of a classification, with a proof of as much of its table as is found.
+
+    >>> from singsym.classes.classify import classify
+    >>> from singsym.mechanism import load
+    >>> made = certificate(classify(load("slider-crank"), cache=False))
+    >>> made.lines[0]["claims"][0]
+    {'types': 'RI, IO', 'occurs': True, 'dimension': 0, 'points': 2, 'components': 2}
+    """
+    name = result.mechanism.name if result.mechanism else "given equations"
+    possible = {c.types for c in feasible_classes(result.equation.n)}
+    claims = [_claim(c) for c in result.classes if c.types in possible]
+    data = statement_data(result.equation)
+    about = statement(data)
+    lines = prove(about, _hints(result, conditions(result.equation)))
+    return Certificate(({"format": FORMAT, "name": name, "claims": claims}, data, *lines))
+
+
+def statement_data(equation: VelocityEquation) -> dict[str, Any]:
+    """The second line of a certificate: the velocity equation and the configuration space it is about."""
+    space = equation.space
+    relations = [r for r in space.ring.relations if r not in space.equations]
+    return {
+        "variables": list(space.ring.names),
+        "constants": [[c.name, str(c.low), str(c.high)] for c in space.ring.constants],
+        "equations": [str(e) for e in (*space.equations, *relations) if e],
+        "exclusions": [[str(p) for p in group] for group in space.exclusions],
+        "positive": [str(p) for p in space.positive],
+        "nonnegative": [str(p) for p in space.nonnegative],
+        "L": [[str(entry) for entry in row] for row in equation.matrix.rows],
+        "roles": [column.role for column in equation.columns],
+        "N": equation.N,
+        "n": equation.n,
+    }
+
+
+def _claim(found: ClassResult) -> dict[str, Any]:
+    """A row of the table, as far as it is decided."""
+    occurs = None if found.verdict.is_undecided else found.verdict.is_yes
+    row: dict[str, Any] = {"types": found.singularity_class.name, "occurs": occurs}
+    if occurs:
+        row |= {"dimension": found.dimension, "points": found.points, "components": found.components}
+    return row
+
+
+def _hints(result: Classification, found: Conditions) -> Hints:
+    """The loci of (4) and (5), their products with multiplicities, and the configurations that are known."""
+    names = result.equation.space.ring.names
+    loci: dict[Polynomial, None] = {}
+    products = []
+    for label in ("4", "5"):
+        product = result.equation.space.ring.one
+        for factor in found[label].factors:
+            loci[factor.polynomial] = None
+            product = product * factor.polynomial**factor.multiplicity
+        products.append(product)
+    points = [
+        tuple(float(witness.coordinates[name]) for name in names)
+        for row in result.classes
+        for witness in row.witnesses
+    ]
+    curves = any(row.components is not None and row.dimension == 1 for row in result.classes)
+    return Hints(tuple(p.value for p in loci), tuple(p.value for p in products), tuple(points), curves)

@@ -1,0 +1,216 @@
+"""What the checker refuses, rule by rule, and that it stands alone."""
+
+from __future__ import annotations
+
+import ast
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from flint import ctx
+
+import singsym
+from singsym.certificates.checker import verification
+from singsym.certificates.checker.curves import Tubes
+from singsym.certificates.checker.points import points
+from singsym.certificates.checker.polynomials import Rejected, polynomial, ring
+from singsym.certificates.checker.ranks import bounds_on, possible_types
+from singsym.certificates.checker.rules import cancel, derive, pivot
+from singsym.certificates.checker.sets import RealSet, Statement, statement
+from singsym.certificates.checker.strata import dimension_above, dimension_below
+from singsym.certificates.prover.writing import Certificate
+from singsym.classes.taxonomy.types import feasible_classes
+
+FOLDER = Path(verification.__file__).parent
+ALLOWED = {"__future__", "collections", "dataclasses", "flint", "functools", "gzip", "itertools", "json"}
+ALLOWED |= {"pathlib", "re", "typing"}
+
+
+def about(equations: list[str], matrix: list[list[str]], roles: list[str], **more: Any) -> Statement:
+    """A statement in x and y, with N and n from the roles."""
+    data = {
+        "variables": ["x", "y"],
+        "constants": [],
+        "equations": equations,
+        "exclusions": [],
+        "positive": [],
+        "nonnegative": [],
+        "L": matrix,
+        "roles": roles,
+        "n": roles.count("input"),
+        "N": len(roles) - roles.count("input"),
+    }
+    return statement(data | more)
+
+
+def one_joint(*equations: str, **more: Any) -> Statement:
+    """One input, one output: T = x A."""
+    return about(list(equations), [["1", "x"]], ["output", "input"], **more)
+
+
+def whole(*equations: str, **more: Any) -> RealSet:
+    return one_joint(*equations, **more).whole
+
+
+def test_it_imports_arithmetic_and_nothing_else() -> None:
+    for file in FOLDER.glob("*.py"):
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            names = [node.module or ""] if isinstance(node, ast.ImportFrom) else []
+            names += [a.name for a in node.names] if isinstance(node, ast.Import) else []
+            for name in names:
+                inside = name.startswith("singsym.certificates.checker.")
+                assert inside or name.split(".")[0] in ALLOWED, (file.name, name)
+
+
+def test_it_loads_nothing_else_of_singsym() -> None:
+    said = (
+        "import sys, singsym.certificates.checker.verification; "
+        "print(sorted(m for m in sys.modules if m.startswith('singsym.')))"
+    )
+    root = Path(singsym.__file__).parents[1]
+    done = subprocess.run([sys.executable, "-c", said], capture_output=True, text=True, cwd=root)
+    loaded = ast.literal_eval(done.stdout)
+    assert loaded
+    assert all(name.startswith("singsym.certificates") and "prover" not in name for name in loaded)
+
+
+def test_it_is_short() -> None:
+    assert sum(file.read_text(encoding="utf-8").count("\n") for file in FOLDER.glob("*.py")) < 1500
+
+
+@pytest.mark.parametrize("text", ["2x", "x^", "x**2", "1/0*x", "z", "", "x +y", "0.5*x", "x^99999"])
+def test_text_that_is_no_polynomial(text: str) -> None:
+    with pytest.raises(Rejected):
+        polynomial(text, ring(["x", "y"]))
+
+
+def test_a_step_of_derive_is_computed_and_not_believed() -> None:
+    """x^2 + y^2 - 1 and x - y: the remainder is 2 y^2 - 1; the circle may go, the line may not."""
+    at = whole("x^2 + y^2 - 1", "x - y")
+    found = derive(at, {"steps": [[[0], [1]]], "equations": [1, 2]})[0]
+    assert [str(e) for e in found.equations] == ["x - y", "2*y^2 - 1"]
+    with pytest.raises(Rejected, match="does not follow"):
+        derive(at, {"steps": [[[0], [1]]], "equations": [2]})
+
+
+def test_only_units_cancel() -> None:
+    """x y = 0 gives y = 0 where x is not zero, and not elsewhere."""
+    line = {"polynomial": "y", "units": [0], "power": 1}
+    assert [str(e) for e in cancel(whole("x*y", exclusions=[["x"]]), line)[0].equations] == ["x*y", "y"]
+    with pytest.raises(Rejected, match="no unit"):
+        cancel(whole("x*y"), line)
+    with pytest.raises(Rejected, match="not seen"):
+        cancel(whole("x*y", exclusions=[["y"]]), line)
+
+
+def test_a_pivot_is_passive_and_a_unit() -> None:
+    matrix, roles = [["1", "x", "y"], ["0", "1", "x"]], ["output", "input", "passive"]
+    at = about([], matrix, roles, exclusions=[["x"]]).whole
+    left = pivot(at, {"row": 1, "column": 2, "units": [0]})[0]
+    assert [[str(e) for e in row] for row in left.matrix] == [["x", "x^2 - y"]]
+    for wrong in ({"row": 0, "column": 2, "units": [0]}, {"row": 0, "column": 0, "units": []}):
+        with pytest.raises(Rejected):
+            pivot(at, wrong)
+
+
+def test_ranks_need_a_unit_and_vanishing_borders() -> None:
+    evidence = {
+        "L_O": [{"rows": [0], "columns": [0], "units": [0]}],
+        "L_I": [{"rows": [0], "columns": [0], "units": []}],
+    }
+    there = one_joint("y", exclusions=[["x"]])
+    assert possible_types(bounds_on(there.whole, there, evidence), 1) == {""}
+    on_zero = one_joint("x")
+    found = bounds_on(on_zero.whole, on_zero, evidence | {"L_O": [{"below": 1}]})
+    assert possible_types(found, 1) == {"RI, IO"}
+    for wrong in ({"L_O": [{"below": 1}]}, {"L_O": [{"rows": [0], "columns": [0], "units": []}]}):
+        with pytest.raises(Rejected):
+            bounds_on(there.whole, there, wrong)
+
+
+CIRCLE = {"form": "y", "minimal": ["-3/4", "0", "1"], "power": 1}
+
+
+def test_all_points_are_there_or_it_is_rejected() -> None:
+    """x = 1/2 on the unit circle: y^2 = 3/4, two points; one of them where y > 0."""
+    line = CIRCLE | {"coordinates": {"x": ["1/2"], "y": ["0", "1"]}}
+    equations = ("2*x - 1", "x^2 + y^2 - 1", "4*y^2 - 3")
+    there = one_joint(*equations)
+    assert points(there.whole, there, line) == {"": 2}
+    above = one_joint(*equations, positive=["y"])
+    assert points(above.whole, above, line) == {"": 1}
+    for wrong in (
+        {"minimal": ["-1/2", "1"]},
+        {"minimal": ["9/16", "0", "-3/2", "0", "1"]},
+        {"coordinates": {"x": ["1/3"], "y": ["0", "1"]}},
+        {"form": "x"},
+    ):
+        with pytest.raises(Rejected):
+            points(there.whole, there, line | wrong)
+    line = CIRCLE | {"coordinates": {"x": ["1/2"], "y": ["0", "1"]}}
+    not_all = one_joint("4*y^2 - 3", "2*x^2 - x")
+    with pytest.raises(Rejected, match="more points"):
+        points(not_all.whole, not_all, line)
+
+
+def test_a_box_without_a_point() -> None:
+    at = whole("x^2 + y^2 - 1")
+    point = {"fixed": {"x": "3/5"}, "centre": {"y": "4/5"}, "radius": "1/100", "square": [0]}
+    assert dimension_below(at, point) == 1 == dimension_above(at)
+    for wrong in ({"centre": {"y": "9/10"}}, {"radius": "1"}, {"fixed": {"x": "1"}, "centre": {"y": "0"}}):
+        with pytest.raises(Rejected):
+            dimension_below(at, point | wrong)
+
+
+def test_a_point_of_a_square_system_that_is_none_of_the_set() -> None:
+    """Of x^2 + y^2 = 1 and x = y the first alone has the point (3/5, 4/5)."""
+    point = {"fixed": {"x": "3/5"}, "centre": {"y": "4/5"}, "radius": "1/100", "square": [0]}
+    steps = {"local": "1", "steps": [], "equations": [0, 1]}
+    for implied in ({}, {"implied": steps}):
+        with pytest.raises(Rejected):
+            dimension_below(whole("x^2 + y^2 - 1", "x - y"), point | implied)
+
+
+def test_a_tube_holds_one_arc() -> None:
+    """Over x from -1/10 to 1/10 the circle is within 1/100 of y = 1, not over all of x, nor at y = 1/2."""
+    unit = 10**9
+    with ctx.workprec(90):
+        tubes = Tubes(whole("x^2 + y^2 - 1"))
+        tube = tubes.tube([0, -unit // 10, unit // 10, [0, unit], [unit, 0], unit // 50])
+        assert tube.start[1] < 1
+        for wrong in (
+            [0, -unit, unit, [0, unit], [unit, 0], unit // 50],
+            [0, -unit // 10, unit // 10, [0, unit // 2], [unit, 0], unit // 50],
+            [0, -unit // 10, unit // 10, [0, unit], [unit, 0], unit // 10**4],
+        ):
+            with pytest.raises(Rejected):
+                tubes.tube(wrong)
+
+
+@pytest.mark.parametrize("n", [1, 2, 3])
+def test_the_rows_are_the_classes(n: int) -> None:
+    """Derived here and there by themselves: 9, 19 and 21 sets of types."""
+    roles = ["output"] * n + ["input"] * n
+    rows = [["1" if i == j else "0" for j in range(2 * n)] for i in range(n)]
+    own = verification.all_types(about([], rows, roles))
+    assert {frozenset(t.split(", ")) for t in own} == {frozenset(c.types.names) for c in feasible_classes(n)}
+
+
+@pytest.mark.engines
+def test_a_certificate_that_ends_early(certified: Callable[[str], Certificate], tmp_path: Path) -> None:
+    lines = certified("fourbar").lines
+    found = verification.verify(Certificate(lines[:-1]).write(tmp_path / "short"))
+    assert not found.complete
+    assert all(row.occurs is not False for row in found.proven)
+
+
+def test_a_file_that_is_none(tmp_path: Path) -> None:
+    path = tmp_path / "file"
+    path.write_text("{}")
+    with pytest.raises(ValueError, match="gzip"):
+        verification.verify(path)
+    with pytest.raises(ValueError, match="format"):
+        verification.verify(Certificate(({},)).write(path))
