@@ -330,7 +330,10 @@ def _shown(command: argparse.ArgumentParser) -> None:
     _output(command)
     choice = command.add_mutually_exclusive_group()
     choice.add_argument(
-        "--class", dest="shown", metavar="NUMBER", help="a class at its configuration, as --class 4"
+        "--class",
+        dest="shown",
+        metavar="NUMBER",
+        help="a class, one file for each of its families, as --class 4",
     )
     choice.add_argument(
         "--curves",

@@ -16,7 +16,7 @@ def picture(
     found: Classification,
     what: int | str | SingularityType | None = None,
     *,
-    witness: int = 0,
+    witness: int | None = None,
     axes: Any = None,
 ) -> Picture:
     """What `Classification.plot` draws.

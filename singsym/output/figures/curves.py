@@ -19,6 +19,7 @@ from singsym.effort.budget import Budget
 from singsym.kinematics.placement import JointValue
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import JointRate
+from singsym.output.figures.families import short_equation
 from singsym.output.figures.style import DASHES, INK, PALE, SERIES, Floats, Picture, entitle, paper
 from singsym.polynomials import Polynomial
 from singsym.polynomials.compiled_map import CompiledMap
@@ -41,12 +42,7 @@ class Trace:
     @property
     def label(self) -> str:
         """The condition and what it says."""
-        return f"({self.locus.condition}) {self.locus.words or _short(self.locus.factor)}"
-
-
-def _short(factor: Polynomial) -> str:
-    text = str(factor)
-    return f"{text} = 0" if len(text) <= 40 else f"{text[:36]}… = 0"
+        return f"({self.locus.condition}) {self.locus.words or short_equation(self.locus.factor)}"
 
 
 def trace_loci(classification: Classification, seconds: float | None = 20.0) -> tuple[Trace, ...]:

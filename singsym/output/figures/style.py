@@ -74,9 +74,9 @@ def paper(axes: Any, width: float, height: float) -> Any:
 def entitle(axes: Any, title: str, *, alone: bool) -> None:
     """A title over axes; alone: whether they are the only ones of a figure of their own."""
     if alone:
-        axes.figure.suptitle(title, fontsize=12, color=INK)
+        axes.figure.suptitle(title, fontsize=11, color=INK)
     else:
-        axes.set_title(title, fontsize=11, color=INK)
+        axes.set_title(title, fontsize=10, color=INK)
 
 
 def canvas(width: float, height: float) -> Any:
