@@ -310,8 +310,9 @@ class Classification:
     ) -> Picture:
         """A picture, which a notebook shows and `Picture.save` writes.
 
-        what: a class as for `result[...]`, at its configuration number `witness`, None for the one farthest
-        from degenerate; "inputs" or "outputs", the singularity curves over two of these; "strata", which class borders on which; None: the mechanism.
+        what: a class as for `result[...]`, at its configuration number `witness` (None: the one farthest from
+        degenerate); "inputs" or "outputs", the singularity curves over two of these; "strata", which class
+        borders on which; None: the mechanism.
         ax: axes of matplotlib to draw on; None: those of a new figure.
         Raises `ValueError` where there is nothing to draw, `KeyError` where there is no such class.
         """

@@ -174,7 +174,7 @@ def _drawn(
 
 
 def _write_below(axes: Any, mechanism: Mechanism, motions: Sequence[Moving], *, alone: bool) -> None:
-    """What the arrows and the faint poses are, and the inputs and the output in the colours that they are drawn in."""
+    """What arrows and faint poses are, and the inputs and the output in the colours they are drawn in."""
     from singsym.output.figures.motions import WORDS
     from singsym.output.figures.style import INPUT, MOTION, OUTPUT
 

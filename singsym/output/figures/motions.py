@@ -27,7 +27,7 @@ WORDS = {
 
 @dataclass(frozen=True, eq=False)
 class Moving:
-    """A null motion as it is drawn: velocities as arrows, and the scene a little later, where it gets there."""
+    """A null motion as it is drawn: velocities as arrows, and the scene a little later if it goes there."""
 
     motion: Motion
     velocities: Velocities

@@ -145,7 +145,7 @@ def _plate(axes: Any, body: Body, order: float) -> None:
 
 
 def _rod(axes: Any, body: Body, line: Floats, order: float, nearness: float) -> None:
-    """A link along a line or an arc, wider where it is near, with a gap in what it crosses; the ground thin."""
+    """A link along a line or an arc, wider where it is near, with a gap in what it crosses; ground thin."""
     if len(line) < 2:
         return
     fill, ends = PLATFORM if body.output else LINK, line[:, :2].T

@@ -53,6 +53,14 @@ class Picture:
         text = stream.getvalue()
         return text[text.index("<svg") :]
 
+    def places(self, x: Floats, y: Floats) -> Floats:
+        """Where points of the first axes are in the SVG element, one a row."""
+        self.figure.draw_without_rendering()
+        pixels = self.figure.axes[0].transData.transform(np.column_stack([x, y]))
+        points = pixels * 72 / self.figure.dpi
+        height = 72 * self.figure.get_figheight()
+        return np.column_stack([points[:, 0], height - points[:, 1]])
+
     def save(self, path: str | Path) -> Path:
         """Write to a file; its ending says the format (svg, pdf, png and what else matplotlib writes)."""
         target = Path(path)
