@@ -259,7 +259,8 @@ def _wrapped(values: Floats, is_angle: bool) -> list[Floats]:
         return [values]
     whole = np.unwrap(values)
     first, last = (round(float(v) / (2 * np.pi)) for v in (whole.min(), whole.max()))
-    return [whole - 2 * np.pi * turns for turns in range(first - 1, last + 2)]
+    copies = (whole - 2 * np.pi * turns for turns in range(first - 1, last + 2))
+    return [copy for copy in copies if copy.min() <= np.pi and copy.max() >= -np.pi]
 
 
 def finish_axes(axes: Any, across: Coordinate, up: Coordinate) -> None:

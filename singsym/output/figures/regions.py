@@ -247,7 +247,8 @@ def plot_regions(
     figure.suptitle(title, fontsize=11, color=INK)
     more = len(found.regions) - len(shown)
     rest = f", {more} smaller ones are left out" if more else ""
-    described = f"{len(found.regions)} regions found{rest}; up to {max(counts, default=0)} assemblies"
+    most = max(counts, default=0)
+    described = f"{len(found.regions)} regions found{rest}; up to {most} assembl{'y' if most == 1 else 'ies'}"
     return Picture(figure, title, f"{title}: {described}")
 
 

@@ -41,12 +41,16 @@ class Picture:
     title: str
     description: str
 
-    def svg(self) -> str:
-        """The figure as an SVG element, the same for the same content."""
+    def svg(self, *, letters: str = "path") -> str:
+        """The figure as an SVG element, the same for the same content.
+
+        letters: "path", drawn and everywhere the same; or "none", text in a font of the reader's.
+        """
         import matplotlib
 
         stream = io.StringIO()
-        with matplotlib.rc_context({"svg.fonttype": "path", "svg.hashsalt": "singsym"}):
+        settings = {"svg.fonttype": letters, "svg.hashsalt": "singsym", "path.simplify_threshold": 0.3}
+        with matplotlib.rc_context(settings):
             self.figure.savefig(
                 stream, format="svg", transparent=True, metadata={"Date": None, "Creator": None}
             )

@@ -99,7 +99,7 @@ def figure(picture: Picture, key: str, caption: str = "", *, broad: bool = False
     broad: it scrolls on a narrow screen, and is not made smaller; plane: the name by which scenes of the page
     mark points on it, hidden at first.
     """
-    svg = picture.svg()
+    svg = picture.svg(letters="none")
     svg = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.DOTALL)
     # a hundredth of a point is finer than a screen shows
     svg = re.sub(r' d="[^"]*"', lambda d: re.sub(r"(\.\d\d)\d+", r"\1", d[0]), svg)
