@@ -345,6 +345,13 @@ def _shown(command: argparse.ArgumentParser) -> None:
         "--strata", dest="shown", action="store_const", const="strata", help="which class borders on which"
     )
     choice.add_argument(
+        "--regions",
+        dest="shown",
+        action="store_const",
+        const="regions",
+        help="assemblies and singularity-free regions over the plane of two inputs",
+    )
+    choice.add_argument(
         "--modules",
         dest="shown",
         action="store_const",

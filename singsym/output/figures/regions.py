@@ -25,12 +25,9 @@ from singsym.polynomials.compiled_map import CompiledMap
 GRID, SEEDS, MOST = 60, 150, 11
 """Cells along each input, random configurations to begin with, and the largest regions, which are drawn."""
 
-_FEW = 0.01
-"""A part of the cells that does not count."""
-
-_STEPS, _REACHED, _SAME, _FAR = 6, 1e-8, 1e-4, 0.5
-"""Newton's steps from cell to cell; values at their end; how near solutions are the same, and how far a
-step may go, both over the sizes of the variables."""
+_PARTS, _STEPS, _REACHED, _SAME, _FAR = 4, 4, 1e-8, 1e-4, 0.5
+"""Parts of the way from cell to cell, and Newton's steps for each; values at their end; how near solutions
+are the same, and how far they may go in a part, both over the sizes of the variables."""
 
 Cell = tuple[int, int]
 
@@ -87,7 +84,7 @@ class _Flood:
         cells = np.column_stack(
             [_nearest(a, c.at(starts)) for a, c in zip(self.axes, self.coordinates, strict=True)]
         )
-        landed, ok = self._solved(starts, cells)
+        landed, ok = self._solved(starts, cells, cells, 1.0)
         front = []
         for point, cell in zip(landed[ok], cells[ok], strict=True):
             number, new = self._entered(point, (int(cell[0]), int(cell[1])))
@@ -101,19 +98,28 @@ class _Flood:
             if not kept:
                 break
             before = np.array([self.points[n] for n, _ in kept])
-            landed, ok = self._solved(before, np.array([cell for _, cell in kept]))
-            ok &= (np.abs(landed - before) / self.sizes).max(axis=1) < _FAR
-            if self.factors.count:
-                ok &= (np.sign(self.factors.values(landed)) == np.sign(self.factors.values(before))).all(
-                    axis=1
-                )
+            begun_at = np.array([where[n] for n, _ in kept])
+            landed, ok, free = self._moved(before, begun_at, np.array([cell for _, cell in kept]))
             for k in np.flatnonzero(ok):
                 start, cell = kept[int(k)]
                 number, new = self._entered(landed[k], cell)
-                self.joined.union(start, number)
+                if free[k]:
+                    self.joined.union(start, number)
                 if new:
                     where[number] = cell
                     front.append(number)
+
+    def _moved(self, points: Floats, begun: Any, cells: Any) -> tuple[Floats, Any, Any]:
+        """From cells to cells in small steps: the ends, where there is one, and where no locus was met."""
+        ok, free = np.ones(len(points), dtype=bool), np.ones(len(points), dtype=bool)
+        signs = self._signs(points)
+        for part in np.arange(1, _PARTS + 1) / _PARTS:
+            landed, there = self._solved(points, begun, cells, part)
+            near = (np.abs(landed - points) / self.sizes).max(axis=1) < _FAR
+            free &= near & (self._signs(landed) == signs).all(axis=1)
+            ok &= there
+            points = np.where(there[:, None], landed, points)
+        return points, ok, free & ok
 
     def _signs(self, points: Floats) -> Floats:
         """On which side of each locus points are, (points, loci)."""
@@ -156,10 +162,10 @@ class _Flood:
         _ = self.joined[number]
         return number, True
 
-    def _solved(self, starts: Floats, cells: Any) -> tuple[Floats, Any]:
-        """Configurations with the inputs of the cells by Newton's method, and where it came to an end."""
+    def _solved(self, starts: Floats, begun: Any, cells: Any, part: float) -> tuple[Floats, Any]:
+        """Configurations with inputs part of the way between cells by Newton's method, and where it ended."""
         points = starts.copy()
-        wanted = [axis[cells[:, k]] for k, axis in enumerate(self.axes)]
+        wanted = [self._between(k, begun[:, k], cells[:, k], part) for k in (0, 1)]
         for step in range(_STEPS + 1):
             values, slopes = self._with_inputs(points, wanted)
             if step == _STEPS:
@@ -171,6 +177,14 @@ class _Flood:
             points[:, self.free] += self.sizes[self.free] * np.clip(changes, -1, 1)
         ahead = [self._ahead(points, k, target) for k, target in enumerate(wanted)]
         return points, (np.abs(values).max(axis=1) < _REACHED) & ahead[0] & ahead[1]
+
+    def _between(self, k: int, begun: Any, ends: Any, part: float) -> Floats:
+        """Values of an input part of the way between cells, the shorter way for an angle."""
+        axis = self.axes[k]
+        way = axis[ends] - axis[begun]
+        if self.coordinates[k].is_angle:
+            way = (way + np.pi) % (2 * np.pi) - np.pi
+        return np.asarray(axis[begun] + part * way)
 
     def _with_inputs(self, points: Floats, wanted: Sequence[Floats]) -> tuple[Floats, Floats]:
         """Values and slopes of the loop equations, and of what is zero where the inputs are as wanted."""
@@ -224,9 +238,7 @@ def plot_regions(
     figure = canvas(2.6 * columns, 2.75 * rows + 0.5)
     panels = figure.subplots(rows, columns, squeeze=False).ravel()
     across, up = (Coordinate(label, classification.equation) for label in plane)
-    # cells on a border, where two assemblies meet, may show one of them
-    numbers, sizes = np.unique(found.assemblies, return_counts=True)
-    counts = [int(n) for n, size in zip(numbers, sizes, strict=True) if n and size > _FEW * sizes.sum()]
+    counts = [int(n) for n in np.unique(found.assemblies) if n]
     for n in counts:
         _shade(panels[0], found, found.assemblies >= n, LINK, 0.9 if n == counts[0] else 0.55)
     draw_traces(panels[0], traces, across, up, width=0.9)
