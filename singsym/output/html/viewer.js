@@ -98,9 +98,8 @@ class Scene {
 
   draw() {
     const track = this.along = this.data.tracks[this.track ? this.track.value : 0];
-    const at = this.place ? Number(this.place.value) : 0;
     if (this.place) this.place.max = track.frames.length - 1;
-    const frame = track.frames[Math.min(at, track.frames.length - 1)];
+    const at = this.place ? Number(this.place.value) : 0, frame = track.frames[at];
     const places = this.data.fixed.map(place => [...place]);
     this.data.moving.forEach((where, k) => { places[where] = frame.slice(3 * k, 3 * k + 3); });
     const axes = this.axes(), names = [];
