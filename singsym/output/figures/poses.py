@@ -50,12 +50,14 @@ def clearance(stage: Stage, point: Floats, defects: Defects = REGULAR) -> float:
         "L_p": equation.N - equation.n - defects.p,
     }
     scaled = scaled_matrix(equation, point)
-    parts = {name: part for name, part in scaled.submatrices().items() if ranks[name] > 0}
-    found = [numerical_rank(part).singular_values[ranks[name] - 1] for name, part in parts.items()]
-    legs = [m for m in stage.scene(point).marks if _is_leg(stage, m.joint.columns)]
-    size = stage.scene(point).size
-    found += [float(np.linalg.norm(m.place - m.base)) / size for m in legs]
-    return min(found, default=1.0)
+    found = []
+    for name, part in scaled.submatrices().items():
+        values = (np.inf, *numerical_rank(part).singular_values)
+        found.append(values[ranks[name]] if ranks[name] < len(values) else 0.0)
+    scene = stage.scene(point)
+    legs = [m for m in scene.marks if _is_leg(stage, m.joint.columns)]
+    found += [float(np.linalg.norm(m.place - m.base)) / scene.size for m in legs]
+    return min(found)
 
 
 def _is_leg(stage: Stage, columns: Iterable[str]) -> bool:

@@ -172,7 +172,7 @@ class _Flood:
                 break
             matrix = slopes[:, :, self.free] * self.sizes[self.free]
             turned = matrix.transpose(0, 2, 1)
-            gram = turned @ matrix + 1e-14 * np.eye(len(self.free))
+            gram = turned @ matrix + 1e-12 * np.eye(len(self.free))
             changes = np.linalg.solve(gram, -(turned @ values[:, :, None]))[:, :, 0]
             points[:, self.free] += self.sizes[self.free] * np.clip(changes, -1, 1)
         ahead = [self._ahead(points, k, target) for k, target in enumerate(wanted)]

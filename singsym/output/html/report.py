@@ -76,8 +76,6 @@ def _title(classification: Classification) -> str:
 
 def _head(classification: Classification) -> str:
     """What the mechanism is, with a figure."""
-    from singsym.output.figures.figure import plot_mechanism
-
     mechanism, equation = classification.mechanism, classification.equation
     facts = [f"N = {equation.N} joints of one degree of freedom, mobility n = {equation.n}"]
     if classification.parameters_note:
@@ -96,27 +94,37 @@ def _head(classification: Classification) -> str:
     lines = "".join(f"<li>{escape(fact)}</li>" for fact in facts)
     text = f"<p>{escape(mechanism.description.strip())}</p>" if mechanism.description else ""
     source = f'<p class="note">Source: {escape(mechanism.source)}</p>' if mechanism.source else ""
-    try:
-        drawn = html.figure(plot_mechanism(mechanism, equation=equation), "mechanism")
-        drawn += _turning(classification, mechanism)
-    except ValueError:
-        # no configuration was found numerically: the page does without the figure
-        drawn = ""
+    drawn = _portrait(classification, mechanism)
     glance = _glance(classification)
     return f'<div class="class"><div>{glance}{text}<ul>{lines}</ul>{source}</div><div>{drawn}</div></div>'
 
 
-def _turning(classification: Classification, mechanism: Mechanism) -> str:
-    """A mechanism of space in its portrait, to be turned."""
+def _portrait(classification: Classification, mechanism: Mechanism) -> str:
+    """The mechanism in a regular configuration, to be turned where it is of space.
+
+    Where none is found numerically it is drawn in a singular one; "" where none of these is known either.
+    """
+    from singsym.output.figures.figure import plot_mechanism
     from singsym.output.figures.poses import portrait
     from singsym.output.figures.scene import Stage
     from singsym.output.html.scenes import Track, scene_box
 
-    if mechanism.space is Space.PLANAR:
-        return ""
     stage = Stage.of(mechanism, classification.equation)
+    try:
+        point = portrait(stage)
+    except ValueError:
+        witness = next((w for c in classification.classes for w in c.witnesses), None)
+        if witness is None:
+            return ""
+        point = stage.vector(witness.coordinates)
+    names = stage.placement.space.ring.names
+    coordinates = dict(zip(names, point.tolist(), strict=True))
+    picture = plot_mechanism(mechanism, coordinates, equation=classification.equation)
+    drawn = html.figure(picture, "mechanism")
+    if mechanism.space is Space.PLANAR:
+        return drawn
     note = '<p class="note">Drag, or use the arrow keys, to turn it; Home turns it back.</p>'
-    return scene_box(stage, [Track("", portrait(stage)[None])], mechanism.title or mechanism.name) + note
+    return drawn + scene_box(stage, [Track("", point[None])], mechanism.title or mechanism.name) + note
 
 
 def _glance(classification: Classification) -> str:
