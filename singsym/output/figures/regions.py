@@ -19,11 +19,14 @@ import numpy as np
 from singsym.classes.result import Classification
 from singsym.kinematics.sampling import sample_configurations
 from singsym.output.figures.curves import Coordinate, Trace, draw_traces, finish_axes, input_plane, trace_loci
-from singsym.output.figures.style import INK, LINK, OUTPUT, PALE, Floats, Picture, canvas
+from singsym.output.figures.style import INK, OUTPUT, PALE, Floats, Picture, canvas
 from singsym.polynomials.compiled_map import CompiledMap
 
 GRID, SEEDS, MOST = 60, 150, 11
 """Cells along each input, random configurations to begin with, and the largest regions, which are drawn."""
+
+_FEW = 0.01
+"""A part of the cells, those on borders, in which an assembly may have been missed."""
 
 _PARTS, _STEPS, _REACHED, _SAME, _FAR = 4, 4, 1e-8, 1e-4, 0.5
 """Parts of the way from cell to cell, and Newton's steps for each; values at their end; how near solutions
@@ -238,11 +241,14 @@ def plot_regions(
     figure = canvas(2.6 * columns, 2.75 * rows + 0.5)
     panels = figure.subplots(rows, columns, squeeze=False).ravel()
     across, up = (Coordinate(label, classification.equation) for label in plane)
-    counts = [int(n) for n in np.unique(found.assemblies) if n]
+    numbers, cells = np.unique(found.assemblies, return_counts=True)
+    counts = [int(n) for n, size in zip(numbers, cells, strict=True) if n and size > _FEW * cells.sum()]
     for n in counts:
-        _shade(panels[0], found, found.assemblies >= n, LINK, 0.9 if n == counts[0] else 0.55)
+        _shade(panels[0], found, found.assemblies >= n, PALE, 0.3)
     draw_traces(panels[0], traces, across, up, width=0.9)
-    panels[0].set_title(f"assemblies: {', '.join(map(str, counts)) or 'none'}", fontsize=9, color=INK)
+    darker = " (darker: more)" if len(counts) > 1 else ""
+    head = f"assemblies: {', '.join(map(str, counts)) or 'none'}{darker}"
+    panels[0].set_title(head, fontsize=9, color=INK)
     for number, (panel, region) in enumerate(zip(panels[1:], shown, strict=False), 1):
         _shade(panel, found, region > 0, OUTPUT, 0.55)
         part = 100 * float((region > 0).mean())
