@@ -306,13 +306,14 @@ class Classification:
         return loads(text)
 
     def plot(
-        self, what: int | str | SingularityType | None = None, *, witness: int = 0, ax: Any = None
+        self, what: int | str | SingularityType | None = None, *, witness: int | None = None, ax: Any = None
     ) -> Picture:
         """A picture, which a notebook shows and `Picture.save` writes.
 
-        what: a class as for `result[...]`, at its configuration number `witness`; "inputs" or "outputs", the
-        singularity curves over two of these; "strata", which class borders on which; None: the mechanism.
-        ax: axes of matplotlib to draw on; None: those of a new figure.
+        what: a class as for `result[...]`, at its configuration number `witness` (None: the one farthest from
+        degenerate); "inputs" or "outputs", the singularity curves over two of these; "regions", those free of
+        singularities over two inputs; "strata", which class borders on which; None: the mechanism.
+        ax: axes of matplotlib to draw on, but for regions; None: those of a new figure.
         Raises `ValueError` where there is nothing to draw, `KeyError` where there is no such class.
         """
         from singsym.output.pictures import picture

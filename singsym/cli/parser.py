@@ -385,7 +385,10 @@ def _shown(command: argparse.ArgumentParser) -> None:
     _output(command)
     choice = command.add_mutually_exclusive_group()
     choice.add_argument(
-        "--class", dest="shown", metavar="NUMBER", help="a class at its configuration, as --class 4"
+        "--class",
+        dest="shown",
+        metavar="NUMBER",
+        help="a class, one file for each of its families, as --class 4",
     )
     choice.add_argument(
         "--curves",
@@ -395,6 +398,13 @@ def _shown(command: argparse.ArgumentParser) -> None:
     )
     choice.add_argument(
         "--strata", dest="shown", action="store_const", const="strata", help="which class borders on which"
+    )
+    choice.add_argument(
+        "--regions",
+        dest="shown",
+        action="store_const",
+        const="regions",
+        help="assemblies and singularity-free regions over the plane of two inputs",
     )
     choice.add_argument(
         "--modules",

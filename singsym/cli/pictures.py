@@ -7,10 +7,14 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from singsym.cli.mechanisms import placed, read
 from singsym.cli.screen import UserError
 from singsym.cli.singularities import UNDECIDED, classified
+
+if TYPE_CHECKING:
+    from singsym.output.figures.style import Picture
 
 
 def run_report(chosen: argparse.Namespace) -> int:
@@ -27,32 +31,44 @@ def run_report(chosen: argparse.Namespace) -> int:
 
 
 def run_plot(chosen: argparse.Namespace) -> int:
-    """`singsym plot MECHANISM`: the mechanism, its modules or what was found; prints the file's name."""
+    """`singsym plot MECHANISM`: the mechanism, its modules or what was found; prints the files' names.
+
+    Of a class each family has a figure; where there are several the files are numbered.
+    """
     path = Path(chosen.output or f"{Path(chosen.mechanism).stem}.svg")
     _writable(path)
-    code = 0
     try:
-        if chosen.shown is None:
-            from singsym.output.figures.figure import plot_mechanism
-
-            mechanism = read(chosen)
-            picture = plot_mechanism(mechanism, equation=placed(mechanism, chosen.formulation))
-        elif chosen.shown == "modules":
-            from singsym.kinematics.modules import driven_modules
-            from singsym.output.module_graph import plot_modules
-
-            picture = plot_modules(driven_modules(read(chosen), chosen.formulation))
-        else:
-            result = classified(chosen)
-            code = UNDECIDED if result.undecided else 0
-            picture = result.plot(int(chosen.shown) if chosen.shown.isdecimal() else chosen.shown)
-        picture.save(path)
+        pictures, code = _pictures(chosen)
+        numbered = [path.with_stem(f"{path.stem}-{k}") for k in range(1, len(pictures) + 1)]
+        for picture, target in zip(pictures, numbered if len(pictures) > 1 else [path], strict=True):
+            picture.save(target)
+            print(target)
     except (ValueError, KeyError) as error:
         raise UserError(str(error.args[0])) from None
     except OSError as error:
         raise UserError(f"{path} cannot be written: {error.strerror}") from None
-    print(path)
     return code
+
+
+def _pictures(chosen: argparse.Namespace) -> tuple[tuple[Picture, ...], int]:
+    """What is to be drawn, and the exit code."""
+    if chosen.shown is None:
+        from singsym.output.figures.figure import plot_mechanism
+
+        mechanism = read(chosen)
+        return (plot_mechanism(mechanism, equation=placed(mechanism, chosen.formulation)),), 0
+    if chosen.shown == "modules":
+        from singsym.kinematics.modules import driven_modules
+        from singsym.output.module_graph import plot_modules
+
+        return (plot_modules(driven_modules(read(chosen), chosen.formulation)),), 0
+    result = classified(chosen)
+    code = UNDECIDED if result.undecided else 0
+    if not chosen.shown.isdecimal():
+        return (result.plot(chosen.shown),), code
+    from singsym.output.figures.figure import plot_families
+
+    return plot_families(result, result[int(chosen.shown)]), code
 
 
 def _writable(path: Path) -> None:

@@ -16,7 +16,7 @@ def picture(
     found: Classification,
     what: int | str | SingularityType | None = None,
     *,
-    witness: int = 0,
+    witness: int | None = None,
     axes: Any = None,
 ) -> Picture:
     """What `Classification.plot` draws.
@@ -33,6 +33,12 @@ def picture(
         from singsym.output.figures.curves import plot_curves
 
         return plot_curves(found, str(what), axes=axes)
+    if what == "regions":
+        from singsym.output.figures.regions import plot_regions
+
+        if axes is not None:
+            raise ValueError("regions are several drawings: they need a figure of their own, without ax")
+        return plot_regions(found)
     if what == "strata":
         from singsym.output.strata_graph import plot_strata
 

@@ -19,6 +19,7 @@ from singsym.effort.budget import Budget
 from singsym.kinematics.placement import JointValue
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import JointRate
+from singsym.output.figures.families import short_equation
 from singsym.output.figures.style import DASHES, INK, PALE, SERIES, Floats, Picture, entitle, paper
 from singsym.polynomials import Polynomial
 from singsym.polynomials.compiled_map import CompiledMap
@@ -41,12 +42,7 @@ class Trace:
     @property
     def label(self) -> str:
         """The condition and what it says."""
-        return f"({self.locus.condition}) {self.locus.words or _short(self.locus.factor)}"
-
-
-def _short(factor: Polynomial) -> str:
-    text = str(factor)
-    return f"{text} = 0" if len(text) <= 40 else f"{text[:36]}… = 0"
+        return f"({self.locus.condition}) {self.locus.words or short_equation(self.locus.factor)}"
 
 
 def trace_loci(classification: Classification, seconds: float | None = 20.0) -> tuple[Trace, ...]:
@@ -106,7 +102,8 @@ class Coordinate:
     equation: VelocityEquation
 
     @cached_property
-    def _polynomials(self) -> tuple[Polynomial, ...]:
+    def polynomials(self) -> tuple[Polynomial, ...]:
+        """Multiples of cosine and sine of an angle; a length, its square, or a coordinate."""
         space, value = self.equation.space, self.equation.values.get(self.label)
         if isinstance(value, JointValue):
             if value.cosine is not None and value.sine is not None:
@@ -126,11 +123,11 @@ class Coordinate:
     @property
     def is_angle(self) -> bool:
         """Whether it is an angle in radians, from -pi to pi."""
-        return len(self._polynomials) == 2
+        return len(self.polynomials) == 2
 
     @cached_property
     def _system(self) -> CompiledMap:
-        return CompiledMap(self._polynomials, self.equation.space.ring)
+        return CompiledMap(self.polynomials, self.equation.space.ring)
 
     def at(self, points: Iterable[Floats]) -> Floats:
         """Its values at points given in the order of the ring's names."""
@@ -138,9 +135,16 @@ class Coordinate:
         if self.is_angle:
             found: Floats = np.arctan2(rows[:, 1], rows[:, 0])
             return found
+        return np.asarray(np.sqrt(rows[:, 0]) if self._is_squared else rows[:, 0], dtype=np.float64)
+
+    def powered(self, values: Floats) -> Floats:
+        """What the polynomial is where a length has these values."""
+        return values**2 if self._is_squared else values
+
+    @property
+    def _is_squared(self) -> bool:
         value = self.equation.values.get(self.label)
-        squared = value is not None and value.square is not None
-        return np.asarray(np.sqrt(rows[:, 0]) if squared else rows[:, 0], dtype=np.float64)
+        return value is not None and value.square is not None
 
 
 def input_plane(classification: Classification) -> tuple[str, str] | None:
@@ -199,8 +203,27 @@ def plot_curves(
     across, up = (Coordinate(label, classification.equation) for label in chosen)
     alone = axes is None
     axes = paper(axes, 6.4, 5.6)
+    draw_traces(axes, traces, across, up)
+    for result, shape in zip(_finite(classification), _SHAPES, strict=False):
+        points = [_vector(classification, w.coordinates) for w in result.witnesses]
+        label = f"class {result.singularity_class.number} ({result.singularity_class.name})"
+        style = {"mfc": "none", "mec": INK, "mew": 1.3, "ls": "none", "zorder": 5}
+        axes.plot(across.at(points), up.at(points), shape, ms=6.5, label=label, **style)
+    finish_axes(axes, across, up)
+    _explain(axes, alone=alone)
+    where = {"inputs": "over the inputs", "outputs": "over the output"}.get(str(plane), "")
+    title = f"Singularity curves {where}".strip()
+    entitle(axes, title, alone=alone)
+    described = "; ".join(t.label for t in traces)
+    return Picture(axes.figure, title, f"{title}: {chosen[0]} across, {chosen[1]} up. Curves: {described}")
+
+
+def draw_traces(
+    axes: Any, traces: Sequence[Trace], across: Coordinate, up: Coordinate, width: float = 1.7
+) -> None:
+    """The curves in a plane of two coordinates."""
     for i, trace in enumerate(traces):
-        style = {"color": SERIES[i % len(SERIES)], "ls": DASHES[i % len(DASHES)], "lw": 1.7}
+        style = {"color": SERIES[i % len(SERIES)], "ls": DASHES[i % len(DASHES)], "lw": width}
         lines = [arc for component in trace.components for arc in component]
         for j, line in enumerate(lines):
             label = trace.label if j == 0 else None
@@ -210,18 +233,6 @@ def plot_curves(
                     marker = "." if np.ptp(x) + np.ptp(y) < 1e-6 else None
                     axes.plot(x, y, label=label, marker=marker, **style)
                     label = None
-    for result, shape in zip(_finite(classification), _SHAPES, strict=False):
-        points = [_vector(classification, w.coordinates) for w in result.witnesses]
-        label = f"class {result.singularity_class.number} ({result.singularity_class.name})"
-        style = {"mfc": "none", "mec": INK, "mew": 1.3, "ls": "none", "zorder": 5}
-        axes.plot(across.at(points), up.at(points), shape, ms=6.5, label=label, **style)
-    _finish(axes, across, up)
-    _explain(axes, alone=alone)
-    where = {"inputs": "over the inputs", "outputs": "over the output"}.get(str(plane), "")
-    title = f"Singularity curves {where}".strip()
-    entitle(axes, title, alone=alone)
-    described = "; ".join(t.label for t in traces)
-    return Picture(axes.figure, title, f"{title}: {chosen[0]} across, {chosen[1]} up. Curves: {described}")
 
 
 def _no_plane(classification: Classification, plane: object) -> str:
@@ -248,10 +259,11 @@ def _wrapped(values: Floats, is_angle: bool) -> list[Floats]:
         return [values]
     whole = np.unwrap(values)
     first, last = (round(float(v) / (2 * np.pi)) for v in (whole.min(), whole.max()))
-    return [whole - 2 * np.pi * turns for turns in range(first - 1, last + 2)]
+    copies = (whole - 2 * np.pi * turns for turns in range(first - 1, last + 2))
+    return [copy for copy in copies if copy.min() <= np.pi and copy.max() >= -np.pi]
 
 
-def _finish(axes: Any, across: Coordinate, up: Coordinate) -> None:
+def finish_axes(axes: Any, across: Coordinate, up: Coordinate) -> None:
     """Labels, and ticks in multiples of pi for angles."""
     ticks = [(-np.pi, "−π"), (-np.pi / 2, "−π/2"), (0, "0"), (np.pi / 2, "π/2"), (np.pi, "π")]
     for coordinate, axis, limits in ((across, axes.xaxis, axes.set_xlim), (up, axes.yaxis, axes.set_ylim)):

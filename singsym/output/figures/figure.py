@@ -14,13 +14,15 @@ import numpy as np
 from singsym.classes.taxonomy.types import Defects, SingularityType
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import JointRate, Mechanism, Space
+from singsym.output.figures.families import Family, families
 from singsym.output.figures.style import Picture
 
 if TYPE_CHECKING:
     from singsym.classes.configuration.null_motions import Motion
-    from singsym.classes.result import Classification, ClassResult
+    from singsym.classes.result import Classification, ClassResult, Configuration
+    from singsym.output.figures.motions import Moving
     from singsym.output.figures.scene import Scene, Stage
-    from singsym.output.figures.style import Floats, Velocities
+    from singsym.output.figures.style import Floats
 
 
 def plot_mechanism(
@@ -33,8 +35,8 @@ def plot_mechanism(
 ) -> Picture:
     """A mechanism drawn at a configuration.
 
-    coordinates: the configuration variables by name (as in `Configuration.coordinates`); None: some
-        configuration, found numerically from `seed`.
+    coordinates: the configuration variables by name (as in `Configuration.coordinates`); None: a regular
+        configuration with room around its points, found numerically from `seed`.
     axes: of matplotlib, to draw on; None: those of a new figure.
     Raises `ValueError` where coordinates are missing or no configuration was found.
 
@@ -42,44 +44,73 @@ def plot_mechanism(
     >>> plot_mechanism(load("fourbar")).title
     'Four-bar linkage, crank-rocker'
     """
+    from singsym.output.figures.poses import portrait
     from singsym.output.figures.scene import Stage
 
     stage = Stage.of(mechanism, equation)
-    point = stage.sample(seed) if coordinates is None else stage.vector(coordinates)
+    point = portrait(stage, seed) if coordinates is None else stage.vector(coordinates)
     title = mechanism.title or mechanism.name
-    return _drawn(stage, point, (), title, f"{title}, {_words(mechanism)}", axes)
+    return _drawn(stage, point, (), (title,), f"{title}, {_words(mechanism)}", axes)
 
 
 def plot_class(
     classification: Classification,
     result: ClassResult | SingularityType,
-    witness: int = 0,
+    witness: int | None = None,
     *,
     axes: Any = None,
 ) -> Picture:
-    """A class at one of its certified configurations, with its null motions as arrows.
+    """A class at one of its certified configurations, with its null motions as arrows and as a later pose.
 
+    witness: the number of a configuration; None: of the first family, the one farthest from degenerate.
     axes: of matplotlib, to draw on; None: those of a new figure.
     Raises `ValueError` where the class has no such configuration, or no mechanism was given.
     """
-    from singsym.output.figures.motions import drawn_motions, motions_at
-
     stage = _stage(classification)
     found = classification[result] if isinstance(result, SingularityType) else result
-    shown = [(w, piece) for piece in found.pieces for w in piece.witnesses]
-    if not shown:
-        fact = "does not occur" if found.verdict.is_no else "has no known configuration"
-        which = f"class {found.singularity_class.number} ({found.types})"
-        raise ValueError(f"{which} {fact}: {found.verdict.reason}")
-    if not 0 <= witness < len(shown):
-        raise ValueError(
-            f"class {found.singularity_class}: {len(shown)} configurations known, no number {witness + 1}"
-        )
-    configuration, piece = shown[witness]
-    point = stage.vector(configuration.coordinates)
-    motions = drawn_motions(motions_at(stage.equation, point, piece.defects))
-    title = f"Class {found.singularity_class.number} ({found.singularity_class.name})"
-    return _drawn(stage, point, motions, title, _class_words(stage, title, motions), axes)
+    of_class = _known_families(classification, found, stage)
+    if witness is None:
+        return _family_drawn(stage, found, of_class[0].words, of_class[0].shown[0], axes)
+    if not 0 <= witness < len(found.witnesses):
+        known = f"{len(found.witnesses)} configurations known, no number {witness + 1}"
+        raise ValueError(f"class {found.singularity_class}: {known}")
+    wanted = found.witnesses[witness]
+    words, shown = next((f.words, s) for f in of_class for s in f.shown if s[0] is wanted)
+    return _family_drawn(stage, found, words, shown, axes)
+
+
+def plot_families(
+    classification: Classification, result: ClassResult | SingularityType
+) -> tuple[Picture, ...]:
+    """One picture for each family of a class, as for wrist, elbow and shoulder of an arm.
+
+    Raises `ValueError` where the class has no known configuration, or no mechanism was given.
+    """
+    stage = _stage(classification)
+    found = classification[result] if isinstance(result, SingularityType) else result
+    of_class = _known_families(classification, found, stage)
+    return tuple(_family_drawn(stage, found, f.words, f.shown[0], None) for f in of_class)
+
+
+def _known_families(classification: Classification, result: ClassResult, stage: Stage) -> tuple[Family, ...]:
+    if not result.witnesses:
+        fact = "does not occur" if result.verdict.is_no else "has no known configuration"
+        which = f"class {result.singularity_class.number} ({result.types})"
+        raise ValueError(f"{which} {fact}: {result.verdict.reason}")
+    return families(classification, result, stage)
+
+
+def _family_drawn(
+    stage: Stage, result: ClassResult, words: str, shown: tuple[Configuration, Defects], axes: Any
+) -> Picture:
+    from singsym.output.figures.motions import drawn_motions, motions_at
+
+    point = stage.vector(shown[0].coordinates)
+    motions = drawn_motions(motions_at(stage.equation, point, shown[1]))
+    number, name = result.singularity_class.number, result.singularity_class.name
+    title = f"Class {number} ({name}): {words}"
+    lines = (stage.mechanism.title or stage.mechanism.name, title)
+    return _drawn(stage, point, motions, lines, _class_words(stage, title, motions), axes)
 
 
 def plot_configuration(
@@ -101,7 +132,7 @@ def plot_configuration(
     point = stage.vector(coordinates)
     motions = drawn_motions(motions_at(stage.equation, point, defects))
     title = str(defects.types)
-    return _drawn(stage, point, motions, title, _class_words(stage, title, motions), axes)
+    return _drawn(stage, point, motions, (title,), _class_words(stage, title, motions), axes)
 
 
 def _stage(classification: Classification) -> Stage:
@@ -113,33 +144,37 @@ def _stage(classification: Classification) -> Stage:
 
 
 def _drawn(
-    stage: Stage, point: Floats, motions: Sequence[Motion], title: str, description: str, axes: Any
+    stage: Stage, point: Floats, motions: Sequence[Motion], lines: Sequence[str], description: str, axes: Any
 ) -> Picture:
+    """A configuration drawn; lines: of the title, of which the last is the picture's own."""
+    from singsym.output.figures.motions import Moving
+    from singsym.output.figures.planar import draw_planar
+    from singsym.output.figures.spatial import draw_spatial
     from singsym.output.figures.style import entitle, paper
+    from singsym.output.figures.view import motion_seen, seen, viewpoint
 
     scene = stage.scene(point)
-    moving: list[tuple[Motion, Velocities]] = [(m, stage.velocities(point, m.rates)) for m in motions]
-    if scene.space is Space.PLANAR:
-        from singsym.output.figures.planar import draw_planar as draw
-    else:
-        from singsym.output.figures.spatial import draw_spatial as draw
-        from singsym.output.figures.view import seen, velocities_seen, viewpoint
-
-        view = viewpoint(scene)
-        scene = seen(scene, view)
-        moving = [(m, velocities_seen(v, view)) for m, v in moving]
+    moving = [Moving.of(stage, point, m) for m in motions]
+    flat = scene.space is Space.PLANAR
+    view = np.eye(2) if flat else viewpoint(scene)
+    if not flat:
+        scene, moving = seen(scene, view), [motion_seen(m, view) for m in moving]
     alone = axes is None
-    axes = paper(axes, 5.4, _height(scene))
+    title = "\n".join(_wrapped(line) for line in lines)
+    axes = paper(axes, 5.4, _height(scene) + 0.2 * title.count("\n"))
     axes.set_aspect("equal")
     axes.axis("off")
-    draw(axes, scene, moving)
-    entitle(axes, _wrapped(title), alone=alone)
-    _write_below(axes, stage.mechanism, motions, alone=alone)
-    return Picture(axes.figure, title, description)
+    if flat:
+        draw_planar(axes, scene, moving)
+    else:
+        draw_spatial(axes, scene, view, moving)
+    entitle(axes, title, alone=alone)
+    _write_below(axes, stage.mechanism, moving, alone=alone)
+    return Picture(axes.figure, lines[-1], description)
 
 
-def _write_below(axes: Any, mechanism: Mechanism, motions: Sequence[Motion], *, alone: bool) -> None:
-    """What the arrows are, and the inputs and the output in the colours that they are drawn in."""
+def _write_below(axes: Any, mechanism: Mechanism, motions: Sequence[Moving], *, alone: bool) -> None:
+    """What arrows and faint poses are, and the inputs and the output in the colours they are drawn in."""
     from singsym.output.figures.motions import WORDS
     from singsym.output.figures.style import INPUT, MOTION, OUTPUT
 
@@ -159,8 +194,10 @@ def _write_below(axes: Any, mechanism: Mechanism, motions: Sequence[Motion], *, 
             look = {"fontsize": 8, "color": colour, "ha": side, "annotation_clip": False}
             axes.annotate(words, corner, below, "axes fraction", "offset points", **look)
 
-    for row, motion in enumerate(reversed(motions), 1):
-        write(f"→ {WORDS[motion.type]}", row, MOTION[str(motion.type)])
+    for row, moving in enumerate(reversed(motions), 1):
+        kind = moving.motion.type
+        faint = "" if moving.later is None else " (faint: a little later)"
+        write(f"→ {WORDS[kind]}{faint}", row, MOTION[str(kind)])
     write(_inputs(mechanism), 0, INPUT)
     write(_outputs(mechanism), 0, OUTPUT, "right")
 
@@ -186,7 +223,7 @@ def _height(scene: Scene) -> float:
 
 def _wrapped(title: str) -> str:
     """A title in lines that fit the width of a figure."""
-    return "\n".join(wrap(title, 52))
+    return "\n".join(wrap(title, 60))
 
 
 def _words(mechanism: Mechanism) -> str:
@@ -202,7 +239,8 @@ def _class_words(stage: Stage, title: str, motions: Sequence[Motion]) -> str:
 
 
 def class_pictures(classification: Classification) -> Iterator[tuple[ClassResult, Picture]]:
-    """One picture for each class that has a configuration."""
+    """The pictures of each class's families, in the order of the classes."""
     for result in classification.classes:
         if result.witnesses:
-            yield result, plot_class(classification, result)
+            for picture in plot_families(classification, result):
+                yield result, picture

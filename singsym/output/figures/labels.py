@@ -10,11 +10,14 @@ from typing import Any
 
 import numpy as np
 
-from singsym.classes.configuration.null_motions import Motion
+from singsym.output.figures.motions import Moving
 from singsym.output.figures.scene import Scene
-from singsym.output.figures.style import INK, MOTION, PAPER, Floats, Velocities
+from singsym.output.figures.style import INK, MOTION, PAPER, Floats
 
 Segment = tuple[Floats, Floats]
+
+_RINGS, _CLEAR = (1.0, 1.35, 1.7), 2.2
+"""How far from its place a label may stand, over the usual, and from segments, over the width of a letter."""
 
 
 def name_groups(names: Mapping[str, Floats], near: float) -> list[tuple[Floats, str]]:
@@ -45,23 +48,31 @@ def write_names(
     spots = []
     for place, label in groups:
         half = np.array([0.5 * letter * (len(label) - 1), 0.0])
-        spot = _free_spot(place, reach(place), half, occupied)
+        spot = _free_spot(place, reach(place), half, occupied, letter)
         axes.annotate(label, spot, ha="center", va="center", fontsize=11, color=INK, zorder=19)
         occupied.append((spot - half, spot + half))
         spots += [spot - half, spot + half]
     return spots
 
 
-def _free_spot(place: Floats, reach: float, half: Floats, segments: Sequence[Segment]) -> Floats:
-    """The middle of a label of this half width, beside a place and farthest from all segments."""
+def _free_spot(
+    place: Floats, reach: float, half: Floats, segments: Sequence[Segment], letter: float
+) -> Floats:
+    """The middle of a label of this half width beside a place: the nearest that is clear of all segments.
+
+    Where none is, the one farthest from them.
+    """
     best, found = -1.0, place
-    for a in np.linspace(0, 2 * np.pi, 16, endpoint=False) + np.pi / 4:
-        u = np.array([np.cos(a), np.sin(a)])
-        spot = place + reach * u + np.clip(2 * u[0], -1, 1) * half
-        letters = (spot - half, spot, spot + half)
-        clearance = min((_distance(p, *s) for s in segments for p in letters), default=1.0)
-        if clearance > best + 1e-6:
-            best, found = clearance, spot
+    for ring in _RINGS:
+        for a in np.linspace(0, 2 * np.pi, 16, endpoint=False) + np.pi / 4:
+            u = np.array([np.cos(a), np.sin(a)])
+            spot = place + ring * reach * u + np.clip(2 * u[0], -1, 1) * half
+            letters = (spot - half, spot, spot + half)
+            clearance = min((_distance(p, *s) for s in segments for p in letters), default=1.0)
+            if clearance > best + 1e-6:
+                best, found = clearance, spot
+        if best > _CLEAR * letter:
+            break
     return found
 
 
@@ -73,9 +84,7 @@ def _distance(p: Floats, a: Floats, b: Floats) -> float:
     return float(np.linalg.norm(p - a - t * d))
 
 
-def draw_arrows(
-    axes: Any, scene: Scene, motion: Motion, velocities: Velocities, size: float
-) -> list[Segment]:
+def draw_arrows(axes: Any, scene: Scene, moving: Moving, size: float) -> list[Segment]:
     """Velocities of the points as arrows, the longest a quarter of `size`; their ends.
 
     A velocity towards the reader is a circle with a dot, one away from the reader a circle with a cross.
@@ -83,12 +92,12 @@ def draw_arrows(
     shown: list[tuple[Floats, Floats]] = []
     for body in scene.bodies:
         for name, place in body.points.items():
-            v = velocities[body.name, name]
+            v = moving.velocities[body.name, name]
             if all(np.abs(place - p).max() + np.abs(v - w).max() > 1e-7 for p, w in shown):
                 shown.append((place, v))
     fastest = max((float(np.linalg.norm(v)) for _, v in shown), default=0.0)
     drawn: list[Segment] = []
-    colour = MOTION[str(motion.type)]
+    colour = MOTION[str(moving.motion.type)]
     for place, v in shown if fastest > 1e-9 else ():
         if float(np.linalg.norm(v)) < 1e-3 * fastest:
             continue
@@ -110,6 +119,17 @@ def draw_arrows(
         axes.annotate("", tip, start, arrowprops=style, zorder=18, annotation_clip=False)
         drawn.append((start, tip))
     return drawn
+
+
+def draw_later(axes: Any, now: Scene, moving: Moving) -> None:
+    """The pose a little later, faint and in the colour of its motion; what has not moved is left out."""
+    if moving.later is None:
+        return
+    look = {"color": MOTION[str(moving.motion.type)], "alpha": 0.28}
+    for before, after in zip(now.lines(), moving.later.lines(), strict=True):
+        if before.shape != after.shape or float(np.abs(before - after).max()) > 1e-3 * now.size:
+            axes.plot(*after[:, :2].T, "-", lw=3, solid_capstyle="round", zorder=1.5, **look)
+            axes.plot(*after[:, :2].T, "o", ms=4, mew=0, zorder=1.6, **look)
 
 
 def set_margins(axes: Any, points: Floats, margin: float) -> None:

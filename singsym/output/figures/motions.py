@@ -6,12 +6,16 @@ the motions themselves are numerical, for drawing.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from singsym.classes.configuration.null_motions import Motion, null_motions, numerical_kernels
 from singsym.classes.taxonomy.types import Defects, SingularityType
 from singsym.kinematics.numerical_rank import numerical_rank
 from singsym.kinematics.scaling import scaled_matrix
 from singsym.kinematics.velocity import VelocityEquation
-from singsym.output.figures.style import Floats
+from singsym.output.figures.poses import poses_along
+from singsym.output.figures.scene import Scene, Stage
+from singsym.output.figures.style import Floats, Velocities
 
 WORDS = {
     SingularityType.RI: "redundant input: inputs move, the output stands still",
@@ -19,6 +23,22 @@ WORDS = {
     SingularityType.RPM: "redundant passive motion: passive joints move, inputs and output stand still",
 }
 """The types that are shown by a motion; every class has one of them."""
+
+
+@dataclass(frozen=True, eq=False)
+class Moving:
+    """A null motion as it is drawn: velocities as arrows, and the scene a little later if it goes there."""
+
+    motion: Motion
+    velocities: Velocities
+    later: Scene | None
+
+    @classmethod
+    def of(cls, stage: Stage, point: Floats, motion: Motion) -> Moving:
+        """A motion from a configuration on."""
+        poses = poses_along(stage, point, motion.rates, (1.0,))
+        later = stage.scene(poses[0]) if poses else None
+        return cls(motion, stage.velocities(point, motion.rates), later)
 
 
 def motions_at(equation: VelocityEquation, point: Floats, defects: Defects) -> tuple[Motion, ...]:

@@ -10,9 +10,16 @@ from typing import Any
 
 import numpy as np
 
-from singsym.classes.configuration.null_motions import Motion
 from singsym.mechanism.model import JointKind
-from singsym.output.figures.labels import Segment, draw_arrows, name_groups, set_margins, write_names
+from singsym.output.figures.labels import (
+    Segment,
+    draw_arrows,
+    draw_later,
+    name_groups,
+    set_margins,
+    write_names,
+)
+from singsym.output.figures.motions import Moving
 from singsym.output.figures.scene import Body, Mark, Scene, distinct
 from singsym.output.figures.style import (
     INK,
@@ -23,13 +30,14 @@ from singsym.output.figures.style import (
     PAPER,
     PLATFORM,
     Floats,
-    Velocities,
 )
 
 
-def draw_planar(axes: Any, scene: Scene, motions: Sequence[tuple[Motion, Velocities]] = ()) -> None:
-    """Draw a scene, with null motions' velocities as arrows, onto matplotlib axes."""
+def draw_planar(axes: Any, scene: Scene, motions: Sequence[Moving] = ()) -> None:
+    """Draw a scene, with null motions as arrows and as faint later poses, onto matplotlib axes."""
     size = scene.size
+    for moving in motions:
+        draw_later(axes, scene, moving)
     plates = [b for b in scene.bodies if not b.ground and b.is_plate]
     bars = [b for b in scene.bodies if not b.ground and len(b.places) >= 2 and not b.is_plate]
     for body in plates:
@@ -49,10 +57,11 @@ def draw_planar(axes: Any, scene: Scene, motions: Sequence[tuple[Motion, Velocit
     _roles(axes, scene, size)
     reached = [scene.all_points]
     arrows: list[Segment] = []
-    for motion, velocities in motions:
-        shown = draw_arrows(axes, scene, motion, velocities, size)
+    for moving in motions:
+        shown = draw_arrows(axes, scene, moving, size)
         arrows += shown
         reached += [tip.reshape(1, 2) for _, tip in shown]
+        reached += [] if moving.later is None else [moving.later.all_points]
     _names(axes, scene, arrows)
     set_margins(axes, np.concatenate(reached), 0.17 * size)
 
@@ -188,9 +197,12 @@ def _segments(scene: Scene) -> list[Segment]:
     for mark in scene.marks:
         if mark.joint.kind is JointKind.P and mark.direction is not None:
             side = np.array([-mark.direction[1], mark.direction[0]]) * 0.06 * scene.size
+            middle = mark.place if mark.grounded else (mark.base + mark.place) / 2
             for shift in (-side, 0 * side, side):
-                middle, u = mark.place + shift, 0.1 * scene.size * mark.direction
-                segments.append((middle - u, middle + u))
+                u = 0.1 * scene.size * mark.direction
+                segments.append((middle + shift - u, middle + shift + u))
+            if not mark.grounded:
+                segments.append((mark.base, mark.place))
         elif mark.grounded:
             segments.append((mark.base, mark.base - np.array([0.0, 0.09 * scene.size])))
     return segments

@@ -15,15 +15,11 @@ import numpy as np
 from singsym.kinematics.formulations import place
 from singsym.kinematics.loops import path
 from singsym.kinematics.placement import Placement
-from singsym.kinematics.sampling import sample_configurations
 from singsym.kinematics.velocity import VelocityEquation, velocity_equation
 from singsym.mechanism.model import Joint, JointKind, JointRate, Mechanism, Space
 from singsym.output.figures.style import Floats
 from singsym.polynomials import Polynomial
 from singsym.polynomials.compiled_map import CompiledMap
-
-SAMPLES = 24
-"""Of so many random configurations the one with the most open shape is drawn."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,6 +108,15 @@ class Scene:
         extent = float(np.ptp(self.all_points, axis=0).max())
         return extent if extent > 1e-9 else 1.0
 
+    def lines(self) -> list[Floats]:
+        """Links and slides as lines through places, closed where a link is a plate; the ground left out."""
+        found = [
+            np.concatenate([b.outline, b.outline[:1]]) if b.is_plate else b.places
+            for b in self.bodies
+            if not b.ground and len(b.points) > 1
+        ]
+        return found + [np.array([m.base, m.place]) for m in self.marks if m.joint.kind is JointKind.P]
+
     def mapped(self, linear: Callable[[Floats], Floats]) -> Scene:
         """The scene with a linear map applied to every place and direction."""
 
@@ -155,9 +160,9 @@ class Stage:
     equation: its velocity equation, which fixes the configuration variables.
 
     >>> from singsym.mechanism import load
-    >>> stage = Stage.of(load("fourbar"))
-    >>> sorted(stage.scene(stage.sample(seed=1)).names)
-    ['A', 'B', 'C', 'D']
+    >>> stage = Stage.of(load("slider-crank"))
+    >>> stage.scene(np.zeros(len(stage.equation.space.ring.names))).bodies[0].name
+    'ground'
     """
 
     mechanism: Mechanism
@@ -202,13 +207,6 @@ class Stage:
         entries = [c for screw in self.placement.screws.values() for c in screw]
         return CompiledMap(entries, self.placement.space.ring)
 
-    def sample(self, seed: int = 0) -> Floats:
-        """Some open configuration, found numerically; raises `ValueError` where none was found."""
-        found = sample_configurations(self.placement.space, SAMPLES, seed=seed)
-        if not found:
-            raise ValueError(f"{self.mechanism.name}: no configuration was found to draw it in; give one")
-        return max(found, key=lambda point: openness(self.scene(point).all_points))
-
     def vector(self, coordinates: Mapping[str, str | float]) -> Floats:
         """Named coordinates in the order of the ring; raises `ValueError` naming those that are missing."""
         names = self.placement.space.ring.names
@@ -238,6 +236,9 @@ class Stage:
         )
         links = [link.name for link in self.mechanism.links]
         held = {name: self._points_of(name, placed, marks) for name in links}
+        if len(self.mechanism.joints) < len(links):
+            # the points of an arm are only numbered, its joints are what it is spoken of by
+            names = {m.joint.name: m.place for m in marks}
         bodies = tuple(
             Body(
                 name,
@@ -326,6 +327,23 @@ class Stage:
             for name, p in body.points.items():
                 found[body.name, name] = self._at(twist, p)
         return found
+
+    def slopes(self, point: Floats) -> dict[tuple[str, str], Floats]:
+        """The slopes of the points of `velocities` by the configuration variables, as far as these tell."""
+        if self.mechanism.space is Space.SPHERICAL:
+            slopes = self._screws.jacobian(point).reshape(len(self._columns), 3, -1)
+            of_axes = dict(zip(self._columns, slopes, strict=True))
+            ends = ((link, j) for j in self.mechanism.joints for link in (j.first, j.second))
+            return {(link, j.name): of_axes[j.columns[0]] for link, j in ends}
+        slopes = self._places.jacobian(point)
+        dimension = 2 if self.mechanism.space is Space.PLANAR else 3
+        return dict(zip(self._used, slopes.reshape(-1, dimension, slopes.shape[-1]), strict=False))
+
+    @cached_property
+    def free(self) -> list[int]:
+        """The places of the configuration variables among the ring's names."""
+        space = self.placement.space
+        return [space.ring.index(name) for name in space.variables]
 
     def _at(self, twist: Floats, place: Floats) -> Floats:
         """A twist's velocity at a place."""

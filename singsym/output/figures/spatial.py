@@ -12,21 +12,28 @@ from typing import Any
 
 import numpy as np
 
-from singsym.classes.configuration.null_motions import Motion
 from singsym.mechanism.model import JointKind, Space
-from singsym.output.figures.labels import Segment, draw_arrows, name_groups, set_margins, write_names
+from singsym.output.figures.labels import (
+    Segment,
+    draw_arrows,
+    draw_later,
+    name_groups,
+    set_margins,
+    write_names,
+)
+from singsym.output.figures.motions import Moving
 from singsym.output.figures.planar import draw_foot
 from singsym.output.figures.scene import Body, Mark, Scene, distinct
 from singsym.output.figures.style import (
     INK,
     INPUT,
     LINK,
+    MOTION,
     OUTPUT,
     PALE,
     PAPER,
     PLATFORM,
     Floats,
-    Velocities,
 )
 
 _RADIUS, _HALF, _REACH = 0.022, 0.04, 0.11
@@ -39,19 +46,27 @@ _ARC = 48
 """Points of an arc on the sphere."""
 
 
-def draw_spatial(axes: Any, scene: Scene, motions: Sequence[tuple[Motion, Velocities]] = ()) -> None:
-    """Draw a scene, with null motions' velocities as arrows, onto plane matplotlib axes."""
+def draw_spatial(axes: Any, scene: Scene, view: Floats, motions: Sequence[Moving] = ()) -> None:
+    """Draw a scene, with null motions as arrows and as faint later poses, onto plane matplotlib axes.
+
+    view: the rotation to the coordinates of the view, one a row; a triad shows the axes of the ground in it.
+    """
     spherical = scene.space is Space.SPHERICAL
     size = 2.2 if spherical else float(np.ptp(scene.all_points[:, :2], axis=0).max())
     depth = _Depth(scene)
     if spherical:
         _sphere(axes)
+    for moving in motions:
+        if spherical:
+            _later_arcs(axes, scene, moving)
+        else:
+            draw_later(axes, scene, moving)
     for body in scene.bodies:
         if body.is_plate and not spherical:
             _plate(axes, body, depth(body.places))
         else:
             for line in _arcs(body) if spherical else (body.places,):
-                _rod(axes, body, line, depth(line))
+                _rod(axes, body, line, depth(line), depth.nearness(line))
     if not spherical:
         _feet(axes, scene, size)
     for mark in scene.marks:
@@ -59,13 +74,32 @@ def draw_spatial(axes: Any, scene: Scene, motions: Sequence[tuple[Motion, Veloci
         _joint(axes, mark, size, order, spherical)
     for place in scene.outputs:
         axes.plot(*place[:2], "D", ms=7, mfc=OUTPUT, mec=INK, mew=1, zorder=17)
-    arrows = [a for motion, v in motions for a in draw_arrows(axes, scene, motion, v, size)]
+    arrows = [a for moving in motions for a in draw_arrows(axes, scene, moving, size)]
     spots = _names(axes, scene, size, arrows)
     reached = [scene.all_points[:, :2], *(np.array(a) for a in arrows), *(s[None] for s in spots)]
     reached += [np.array([m.place[:2] + s * _REACH * size * u[:2] for s in (-1, 1)]) for m, u in _axes(scene)]
     if spherical:
         reached.append(np.array([[-1.0, -1.0], [1.0, 1.0]]))
-    set_margins(axes, np.concatenate(reached), 0.06 * size)
+    if not spherical:
+        reached += [m.later.all_points[:, :2] for m in motions if m.later is not None]
+    whole = np.concatenate(reached)
+    set_margins(axes, whole, 0.06 * size)
+    _triad(axes, view, whole)
+
+
+def _triad(axes: Any, view: Floats, drawn: Floats) -> None:
+    """The axes of the ground as the view shows them, in the emptiest corner."""
+    low, high = drawn.min(axis=0), drawn.max(axis=0)
+    corners = [(x, y) for x in (0.08, 0.92) for y in (0.08, 0.92)]
+    spots = [low + np.array(corner) * (high - low) for corner in corners]
+    corner = corners[int(np.argmax([np.linalg.norm(drawn - spot, axis=1).min() for spot in spots]))]
+    far = {"annotation_clip": False, "zorder": 0.5}
+    for name, along in zip("xyz", view.T, strict=True):
+        tip, letter = 22 * along[:2], 29 * along[:2] + (0 if np.hypot(*along[:2]) > 0.3 else 7)
+        style = {"arrowstyle": "-|>", "color": PALE, "lw": 1.2, "shrinkA": 0, "shrinkB": 0}
+        ends = {"xycoords": "axes fraction", "textcoords": "offset points", **far}
+        axes.annotate("", corner, tip, arrowprops={**style, "arrowstyle": "<|-"}, **ends)
+        axes.annotate(name, corner, letter, fontsize=8, color=PALE, ha="center", va="center", **ends)
 
 
 class _Depth:
@@ -76,7 +110,11 @@ class _Depth:
         self._low, self._range = float(heights.min()), max(float(np.ptp(heights)), 1e-9)
 
     def __call__(self, places: Floats) -> float:
-        return 3 + 10 * (float(np.mean(np.atleast_2d(places)[:, 2])) - self._low) / self._range
+        return 3 + 10 * self.nearness(places)
+
+    def nearness(self, places: Floats) -> float:
+        """From 0 at the back to 1 in front."""
+        return (float(np.mean(np.atleast_2d(places)[:, 2])) - self._low) / self._range
 
 
 def _order(mark: Mark, scene: Scene, depth: _Depth) -> float:
@@ -106,16 +144,18 @@ def _plate(axes: Any, body: Body, order: float) -> None:
         axes.fill(*corners, fc=fill, ec=INK, lw=1.4, joinstyle="round", alpha=0.85, zorder=order)
 
 
-def _rod(axes: Any, body: Body, line: Floats, order: float) -> None:
-    """A link along a line or an arc; the ground thin, behind everything."""
+def _rod(axes: Any, body: Body, line: Floats, order: float, nearness: float) -> None:
+    """A link along a line or an arc, wider where it is near, with a gap in what it crosses; ground thin."""
     if len(line) < 2:
         return
     fill, ends = PLATFORM if body.output else LINK, line[:, :2].T
     if body.ground:
         axes.plot(*ends, "-", color=PALE, lw=1.2, zorder=1)
     else:
-        axes.plot(*ends, "-", color=INK, lw=6.5, solid_capstyle="round", zorder=order)
-        axes.plot(*ends, "-", color=fill, lw=4.2, solid_capstyle="round", zorder=order + 0.01)
+        wide = 4.6 + 3.4 * nearness
+        axes.plot(*ends, "-", color=PAPER, lw=wide + 3, solid_capstyle="butt", zorder=order - 0.01)
+        axes.plot(*ends, "-", color=INK, lw=wide, solid_capstyle="round", zorder=order)
+        axes.plot(*ends, "-", color=fill, lw=wide - 2.2, solid_capstyle="round", zorder=order + 0.01)
 
 
 def _arcs(body: Body) -> Iterator[Floats]:
@@ -125,6 +165,17 @@ def _arcs(body: Body) -> Iterator[Floats]:
         chord = (1 - t) * a + t * b
         norms = np.linalg.norm(chord, axis=1, keepdims=True)
         yield chord / np.where(norms < 1e-6, 1.0, norms)
+
+
+def _later_arcs(axes: Any, scene: Scene, moving: Moving) -> None:
+    """The links of a spherical mechanism a little later, faint, where they have moved."""
+    if moving.later is None:
+        return
+    look = {"color": MOTION[str(moving.motion.type)], "alpha": 0.28, "lw": 3, "zorder": 1.5}
+    for before, after in zip(scene.bodies, moving.later.bodies, strict=True):
+        if any(np.abs(after.points[n] - p).max() > 1e-3 for n, p in before.points.items()):
+            for line in _arcs(after):
+                axes.plot(*line[:, :2].T, "-", solid_capstyle="round", **look)
 
 
 def _sphere(axes: Any) -> None:
@@ -229,5 +280,6 @@ def _names(axes: Any, scene: Scene, size: float, arrows: Sequence[Segment]) -> l
     for mark, u in _axes(scene):
         reach = _REACH * size * u[:2]
         segments.append((mark.place[:2] - reach, mark.place[:2] + reach))
+    segments += [(m.base[:2], m.place[:2]) for m in scene.marks if scene.space is not Space.SPHERICAL]
     groups = name_groups({name: place[:2] for name, place in named.items()}, 0.02 * size)
     return write_names(axes, groups, segments, lambda _: 0.07 * size, 0.02 * size)

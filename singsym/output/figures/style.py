@@ -41,17 +41,29 @@ class Picture:
     title: str
     description: str
 
-    def svg(self) -> str:
-        """The figure as an SVG element, the same for the same content."""
+    def svg(self, *, letters: str = "path") -> str:
+        """The figure as an SVG element, the same for the same content.
+
+        letters: "path", drawn and everywhere the same; or "none", text in a font of the reader's.
+        """
         import matplotlib
 
         stream = io.StringIO()
-        with matplotlib.rc_context({"svg.fonttype": "path", "svg.hashsalt": "singsym"}):
+        settings = {"svg.fonttype": letters, "svg.hashsalt": "singsym", "path.simplify_threshold": 0.3}
+        with matplotlib.rc_context(settings):
             self.figure.savefig(
                 stream, format="svg", transparent=True, metadata={"Date": None, "Creator": None}
             )
         text = stream.getvalue()
         return text[text.index("<svg") :]
+
+    def places(self, x: Floats, y: Floats) -> Floats:
+        """Where points of the first axes are in the SVG element, one a row."""
+        self.figure.draw_without_rendering()
+        pixels = self.figure.axes[0].transData.transform(np.column_stack([x, y]))
+        points = pixels * 72 / self.figure.dpi
+        height = 72 * self.figure.get_figheight()
+        return np.column_stack([points[:, 0], height - points[:, 1]])
 
     def save(self, path: str | Path) -> Path:
         """Write to a file; its ending says the format (svg, pdf, png and what else matplotlib writes)."""
@@ -74,9 +86,9 @@ def paper(axes: Any, width: float, height: float) -> Any:
 def entitle(axes: Any, title: str, *, alone: bool) -> None:
     """A title over axes; alone: whether they are the only ones of a figure of their own."""
     if alone:
-        axes.figure.suptitle(title, fontsize=12, color=INK)
+        axes.figure.suptitle(title, fontsize=11, color=INK)
     else:
-        axes.set_title(title, fontsize=11, color=INK)
+        axes.set_title(title, fontsize=10, color=INK)
 
 
 def canvas(width: float, height: float) -> Any:

@@ -5,10 +5,13 @@ Source: the oblique drawings of Figs 5-12 of Zlatanov, Fenton, Benhabib (1998).
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
+from singsym.output.figures.motions import Moving
 from singsym.output.figures.scene import Scene, openness
-from singsym.output.figures.style import Floats, Velocities
+from singsym.output.figures.style import Floats
 
 _ELEVATION = np.deg2rad(24)
 _AZIMUTHS = np.deg2rad([-62, -50, -38, -74, -26, -86, -110, -134])
@@ -19,9 +22,10 @@ def viewpoint(scene: Scene) -> Floats:
 
     >>> import numpy as np
     >>> from singsym.mechanism import load
+    >>> from singsym.output.figures.poses import portrait
     >>> from singsym.output.figures.scene import Stage
     >>> stage = Stage.of(load("rssr"))
-    >>> view = viewpoint(stage.scene(stage.sample()))
+    >>> view = viewpoint(stage.scene(portrait(stage)))
     >>> bool(np.allclose(view @ view.T, np.eye(3)))
     True
     """
@@ -41,6 +45,7 @@ def seen(scene: Scene, view: Floats) -> Scene:
     return scene.mapped(lambda place: view @ place)
 
 
-def velocities_seen(velocities: Velocities, view: Floats) -> Velocities:
-    """Velocities in the view's coordinates."""
-    return {key: view @ v for key, v in velocities.items()}
+def motion_seen(moving: Moving, view: Floats) -> Moving:
+    """A motion's velocities and its later scene in the view's coordinates."""
+    later = None if moving.later is None else seen(moving.later, view)
+    return replace(moving, velocities={key: view @ v for key, v in moving.velocities.items()}, later=later)

@@ -61,14 +61,14 @@ body { margin: 0 auto; max-width: 72rem; padding: 1rem; color: var(--ink); backg
   font: 1rem/1.5 system-ui, sans-serif; overflow-wrap: anywhere; }
 h1 { line-height: 1.2; } h2 { margin-top: 2.5rem; border-bottom: 1px solid var(--pale); }
 a { color: var(--ri); } a:focus-visible, input:focus-visible, select:focus-visible, summary:focus-visible,
-  .wide:focus-visible { outline: 3px solid var(--input); outline-offset: 2px; }
+  .wide:focus-visible, .formula:focus-visible { outline: 3px solid var(--input); outline-offset: 2px; }
 nav ul { display: flex; flex-wrap: wrap; gap: .25rem 1.25rem; padding: 0; list-style: none; }
 .wide { overflow-x: auto; } table { border-collapse: collapse; }
 th, td { padding: .3rem .7rem; text-align: left; vertical-align: top; border-bottom: 1px solid var(--pale);
   white-space: nowrap; }
 .glance { padding: 0; list-style: none; }
 tr.no { color: var(--faint); } .undecided { color: var(--input); font-weight: 600; }
-figure { margin: 1rem 0; } figure svg, .motion svg { max-width: 100%; height: auto; }
+figure { margin: 1rem 0; } figure svg { max-width: 100%; height: auto; }
 figcaption, .note { color: var(--faint); font-size: .92rem; }
 .class { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(22rem, 100%), 1fr)); gap: 0 2rem; }
 .class > * { min-width: 0; } .figures { display: flex; flex-wrap: wrap; gap: 1rem; }
@@ -77,30 +77,14 @@ figcaption, .note { color: var(--faint); font-size: .92rem; }
 math { font-size: 1.05em; white-space: nowrap; overflow-wrap: normal; }
 .formula { overflow-x: auto; padding: .2rem 0; }
 mtr.labels { color: var(--faint); font-size: .8em; }
-.motion svg { display: block; width: 100%; max-width: 40rem; } .motion input { width: min(30rem, 90%); }
-.motion select { max-width: 100%; font: inherit; } .motion output { font-variant-numeric: tabular-nums; }
-.motion .link { fill: var(--link); stroke: var(--ink); stroke-width: 3; fill-opacity: .8; }
-.motion .platform { fill: var(--platform); stroke: var(--ink); stroke-width: 3; fill-opacity: .8; }
-.motion .edge { stroke: var(--ink); stroke-width: 10; }
-.motion .bar { stroke: var(--link); stroke-width: 6; } .motion .platform.bar { stroke: var(--platform); }
-.motion .ground { fill: var(--pale); stroke: var(--pale); fill-opacity: .2; }
-.motion .ground.edge, .motion .ground.bar { stroke: var(--pale); stroke-width: 2; }
-.motion polyline { stroke-linecap: round; } .motion .slider { stroke: var(--ink); stroke-width: 18;
-  stroke-opacity: .45; stroke-linecap: butt; } .motion .axis { stroke: var(--ink); stroke-width: 2; }
-.motion .pin { fill: var(--paper); stroke: var(--ink); stroke-width: 3; }
-.motion .foot { fill: var(--paper); stroke: var(--ink); stroke-width: 2; }
-.motion .diamond { fill: var(--output); stroke: var(--ink); stroke-width: 1.5; }
-.motion .pin.input, .motion .axis.input, .motion .slider.input { stroke: var(--input); }
-.motion .pin.output, .motion .slider.output { stroke: var(--output); }
-.motion .name { fill: var(--ink); font: 20px system-ui, sans-serif; }
 """
 
 
-def page(title: str, body: str, script: str = "") -> str:
+def page(title: str, body: str, script: str = "", more_style: str = "") -> str:
     """The whole page, with nothing that is loaded from elsewhere."""
     light = " ".join(f"{name}: {colour};" for colour, name in _LIGHT.items()) + " --faint: #59626e;"
     dark = " ".join(f"{name}: {colour};" for name, colour in _DARK.items()) + " --faint: #a3adba;"
-    style = _STYLE.replace("LIGHT", light, 1).replace("DARK", dark, 1)
+    style = _STYLE.replace("LIGHT", light, 1).replace("DARK", dark, 1) + more_style
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
@@ -109,17 +93,23 @@ def page(title: str, body: str, script: str = "") -> str:
     )
 
 
-def figure(picture: Picture, key: str, caption: str = "", *, broad: bool = False) -> str:
+def figure(picture: Picture, key: str, caption: str = "", *, broad: bool = False, plane: str = "") -> str:
     """A picture inline: its colours follow the page, its ids begin with `key`, it is described in words.
 
-    broad: it scrolls on a narrow screen, and is not made smaller.
+    broad: it scrolls on a narrow screen, and is not made smaller; plane: the name by which scenes of the page
+    mark points on it, hidden at first.
     """
-    svg = picture.svg()
+    svg = picture.svg(letters="none")
     svg = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.DOTALL)
+    # a hundredth of a point is finer than a screen shows
+    svg = re.sub(r' d="[^"]*"', lambda d: re.sub(r"(\.\d\d)\d+", r"\1", d[0]), svg)
     svg = re.sub(r'\bid="', f'id="{key}-', svg)
     svg = re.sub(r'href="#', f'href="#{key}-', svg).replace("url(#", f"url(#{key}-")
     for colour, name in _LIGHT.items():
         svg = svg.replace(colour, f"var({name})")
+    if plane:
+        mark = f'<circle class="here" data-plane="{escape(plane)}" r="5" visibility="hidden"/>'
+        svg = svg.replace("</svg>", f"{mark}</svg>")
     described = f'role="img" aria-label="{escape(picture.description, quote=True)}"'
     svg = svg.replace("<svg ", f"<svg {described} ", 1)
     below = f"<figcaption>{escape(caption)}</figcaption>" if caption else ""

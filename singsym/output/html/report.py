@@ -5,15 +5,18 @@ Source: the layout follows section 3.3 and Table 2 of Zlatanov, Fenton, Benhabib
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from html import escape
 
 from singsym.classes.configuration.null_motions import Motion
 from singsym.classes.result import Classification, ClassResult, Piece, gathered
 from singsym.classes.summary import empty_classes, known_by, shown_classes
 from singsym.classes.taxonomy.types import SingularityType
-from singsym.mechanism.model import JointRate
+from singsym.mechanism.model import JointRate, Mechanism, Space
+from singsym.output.figures.families import families
 from singsym.output.html import mathml as math
 from singsym.output.html import page as html
+from singsym.output.html.curves import curves
 from singsym.output.html.proofs import proofs
 from singsym.output.pieces import (
     counted,
@@ -45,13 +48,13 @@ def report(classification: Classification) -> str:
     >>> page[:15], "<math" in page, "class-1" in page
     ('<!DOCTYPE html>', True, True)
     """
-    from singsym.output.html.moving_picture import SCRIPT
+    from singsym.output.html.scenes import script, style
 
     name = _title(classification)
     sections = [
         ("singularity-set", "Singularity set", _summary(classification)),
         ("classes", "Classes", _classes(classification)),
-        ("curves", "Singularity curves", _curves(classification)),
+        ("curves", "Singularity curves", curves(classification)),
         ("strata", "Strata", _strata(classification)),
         ("equations", "Equations", _equations(classification)),
         ("proofs", "Proofs", proofs(classification)),
@@ -63,7 +66,7 @@ def report(classification: Classification) -> str:
     parts += [f'<section id="{key}"><h2>{title}</h2>{body}</section>' for key, title, body in shown]
     work = f"{', '.join(classification.engines)}; seed {classification.seed}; {classification.seconds:.1f} s"
     parts.append(f'</main><footer class="note"><p>singsym, with {escape(work)}</p></footer>')
-    return html.page(f"Singularities: {name}", "\n".join(parts), SCRIPT)
+    return html.page(f"Singularities: {name}", "\n".join(parts), script(), style())
 
 
 def _title(classification: Classification) -> str:
@@ -73,8 +76,6 @@ def _title(classification: Classification) -> str:
 
 def _head(classification: Classification) -> str:
     """What the mechanism is, with a figure."""
-    from singsym.output.figures.figure import plot_mechanism
-
     mechanism, equation = classification.mechanism, classification.equation
     facts = [f"N = {equation.N} joints of one degree of freedom, mobility n = {equation.n}"]
     if classification.parameters_note:
@@ -93,15 +94,37 @@ def _head(classification: Classification) -> str:
     lines = "".join(f"<li>{escape(fact)}</li>" for fact in facts)
     text = f"<p>{escape(mechanism.description.strip())}</p>" if mechanism.description else ""
     source = f'<p class="note">Source: {escape(mechanism.source)}</p>' if mechanism.source else ""
-    witness = next((w for c in classification.classes for w in c.witnesses), None)
-    coordinates = None if witness is None else witness.coordinates
-    try:
-        drawn = html.figure(plot_mechanism(mechanism, coordinates, equation=equation, seed=1), "mechanism")
-    except ValueError:
-        # no configuration was found numerically: the page does without the figure
-        drawn = ""
+    drawn = _portrait(classification, mechanism)
     glance = _glance(classification)
-    return f'<div class="class"><div>{glance}{text}<ul>{lines}</ul>{source}</div>{drawn}</div>'
+    return f'<div class="class"><div>{glance}{text}<ul>{lines}</ul>{source}</div><div>{drawn}</div></div>'
+
+
+def _portrait(classification: Classification, mechanism: Mechanism) -> str:
+    """The mechanism in a regular configuration, to be turned where it is of space.
+
+    Where none is found numerically it is drawn in a singular one; "" where none of these is known either.
+    """
+    from singsym.output.figures.figure import plot_mechanism
+    from singsym.output.figures.poses import portrait
+    from singsym.output.figures.scene import Stage
+    from singsym.output.html.scenes import Track, scene_box
+
+    stage = Stage.of(mechanism, classification.equation)
+    try:
+        point = portrait(stage)
+    except ValueError:
+        witness = next((w for c in classification.classes for w in c.witnesses), None)
+        if witness is None:
+            return ""
+        point = stage.vector(witness.coordinates)
+    names = stage.placement.space.ring.names
+    coordinates = dict(zip(names, point.tolist(), strict=True))
+    picture = plot_mechanism(mechanism, coordinates, equation=classification.equation)
+    drawn = html.figure(picture, "mechanism")
+    if mechanism.space is Space.PLANAR:
+        return drawn
+    note = '<p class="note">Drag, or use the arrow keys, to turn it; Home turns it back.</p>'
+    return drawn + scene_box(stage, [Track("", point[None])], mechanism.title or mechanism.name) + note
 
 
 def _glance(classification: Classification) -> str:
@@ -189,13 +212,7 @@ def _classes(classification: Classification) -> str:
 
 
 def _class(classification: Classification, result: ClassResult) -> str:
-    from singsym.output.figures.figure import plot_class
-
     number = result.singularity_class.number
-    drawn = ""
-    if classification.mechanism is not None and result.witnesses:
-        picture = plot_class(classification, result)
-        drawn = html.figure(picture, f"figure-{number}", _velocities(classification, result))
     size = [f"dimension {result.extent}"]
     if parts := parts_of(result):
         size.append(f"{parts} (closed up)" if result.dimension == 1 and result.components else parts)
@@ -205,34 +222,41 @@ def _class(classification: Classification, result: ClassResult) -> str:
     )
     return (
         f'<section id="class-{number}"><h3>Class {number}: {escape(result.singularity_class.name)}</h3>'
-        f'<div class="class"><div><p>{escape(result.singularity_class.words.capitalize())}. '
+        f"<p>{escape(result.singularity_class.words.capitalize())}. "
         f"{escape(', '.join(size).capitalize())}.</p><p>Rank defects: {'; '.join(defects)}.</p>"
-        f"<ul>{_pieces(classification, result)}</ul>{_impossible(classification, result)}"
-        f'<p><a href="#proof-{number}">How this is known</a></p></div>{drawn}</div>'
-        f"{_witnesses(classification, result)}</section>"
+        f"<ul>{_pieces(classification, result)}</ul>"
+        f'<p><a href="#proof-{number}">How this is known</a></p>'
+        f"{_families(classification, result)}{_witnesses(classification, result)}</section>"
     )
 
 
-def _velocities(classification: Classification, result: ClassResult) -> str:
-    """The velocities of the motions in the figure of a class."""
-    from singsym.output.figures.motions import drawn_motions, rates_text
+def _families(classification: Classification, result: ClassResult) -> str:
+    """Of each family a figure, and beside it the mechanism that moves along its null motions."""
+    from singsym.output.figures.figure import plot_families
+    from singsym.output.figures.motions import drawn_motions, motions_at, rates_text
+    from singsym.output.figures.scene import Stage
+    from singsym.output.html.scenes import scene_box
+    from singsym.output.html.tracks import motion_tracks
 
-    motions = drawn_motions(_motions(classification, result))
-    return "; ".join(f"{m.type}: {rates_text(m)}" for m in motions)
-
-
-def _motions(classification: Classification, result: ClassResult) -> tuple[Motion, ...]:
-    """All null motions and restrictions at the configuration that is drawn."""
-    import numpy as np
-
-    from singsym.output.figures.motions import motions_at
-
-    found = next(((w, p) for p in result.pieces for w in p.witnesses), None)
-    if found is None:
-        return ()
-    equation, coordinates = classification.equation, found[0].coordinates
-    point = np.array([float(coordinates[name]) for name in equation.space.ring.names])
-    return motions_at(equation, point, found[1].defects)
+    mechanism = classification.mechanism
+    if mechanism is None or not result.witnesses:
+        return ""
+    stage = Stage.of(mechanism, classification.equation)
+    pictures = plot_families(classification, result)
+    found = []
+    for k, (family, picture) in enumerate(
+        zip(families(classification, result, stage), pictures, strict=True)
+    ):
+        configuration, defects = family.shown[0]
+        point = stage.vector(configuration.coordinates)
+        motions = motions_at(stage.equation, point, defects)
+        moved = drawn_motions(motions)
+        rates = "; ".join(f"{m.type}: {rates_text(m)}" for m in moved)
+        drawn = html.figure(picture, f"figure-{result.singularity_class.number}-{k}", rates)
+        tracks = motion_tracks(stage, point, moved)
+        scene = scene_box(stage, tracks, f"{picture.title}: the mechanism that moves") if tracks else ""
+        found.append(f'<div class="class">{drawn}<div>{scene}{_impossible(motions)}</div></div>')
+    return "".join(found)
 
 
 def _pieces(classification: Classification, result: ClassResult) -> str:
@@ -284,14 +308,14 @@ def _unequal(classification: Classification, piece: Piece) -> str:
     return "; ".join(said)
 
 
-def _impossible(classification: Classification, result: ClassResult) -> str:
+def _impossible(motions: Sequence[Motion]) -> str:
     """Which input and output velocities are impossible at the configuration that is drawn."""
     from singsym.output.figures.motions import restriction_text
 
     lines = [
         f"<li>{'input' if m.type is SingularityType.II else 'output'} velocities must obey "
         f"{escape(restriction_text(m))}</li>"
-        for m in _motions(classification, result)
+        for m in motions
         if m.restriction
     ]
     return f"<p>At this configuration:</p><ul>{''.join(lines)}</ul>" if lines else ""
@@ -314,28 +338,7 @@ def _witnesses(classification: Classification, result: ClassResult) -> str:
     return f"<details><summary>{certified}</summary>{listed}{more}</details>"
 
 
-# -- curves and strata ---------------------------------------------------------------------------------
-
-
-def _curves(classification: Classification) -> str:
-    """Curves over the inputs and the output, and the slider; "" where no locus is a curve."""
-    from singsym.output.figures.curves import input_plane, output_plane, plot_curves, trace_loci
-    from singsym.output.figures.scene import Stage
-    from singsym.output.html.moving_picture import motion
-
-    traces = trace_loci(classification)
-    if not traces:
-        return ""
-    drawn = []
-    for plane, find in (("inputs", input_plane), ("outputs", output_plane)):
-        if find(classification) is not None:
-            drawn.append(html.figure(plot_curves(classification, plane, traces), f"curves-{plane}"))
-    slider = ""
-    if classification.mechanism is not None:
-        moved = motion(Stage.of(classification.mechanism, classification.equation), traces)
-        slider = f"<h3>Along a curve</h3>{moved}" if moved else ""
-    note = '<p class="note">The curves are tracked for drawing; the counts above are proven apart.</p>'
-    return f'<div class="figures">{"".join(drawn)}</div>{note}{slider}'
+# -- strata --------------------------------------------------------------------------------------------
 
 
 def _strata(classification: Classification) -> str:
