@@ -16,7 +16,7 @@ import shutil
 import sys
 from html import unescape
 from pathlib import Path
-from tempfile import mkdtemp
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from latex2mathml.converter import convert
@@ -43,14 +43,16 @@ exit $code
 """Keeps commands that fail also where they are at the head of a pipe."""
 FAILED = "failed"
 
-_folder = Path()
+_temporary: TemporaryDirectory[str] | None = None
+_folder = Path("/nonexistent")
 _environment: dict[str, str] = {}
 
 
 def on_pre_build(config: MkDocsConfig) -> None:
     """A folder for all pages, and an environment with the command and without results from before."""
-    global _folder
-    _folder = Path(mkdtemp(prefix="singsym-docs-"))
+    global _temporary, _folder
+    _temporary = TemporaryDirectory(prefix="singsym-docs-")
+    _folder = Path(_temporary.name)
     _environment.update(os.environ)
     command = _folder / "bin" / "singsym"
     command.parent.mkdir()
@@ -108,8 +110,12 @@ def on_build_error(error: Exception) -> None:
 
 
 def _tidy() -> None:
+    global _temporary
+    if _temporary is None:
+        return
     os.chdir(ROOT)
-    shutil.rmtree(_folder, ignore_errors=True)
+    _temporary.cleanup()
+    _temporary = None
     os.environ.clear()
     os.environ.update(_environment)
 
