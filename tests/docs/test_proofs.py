@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 from functools import cache
 from importlib import import_module, resources
+from pathlib import Path
 from pkgutil import iter_modules
 from typing import Any, get_args
 
@@ -34,10 +35,8 @@ PATHS = re.compile(rf"`((?:{'|'.join(FOLDERS)})(?:\.\w+)+)`")
 NAMES = sorted(set(PATHS.findall(PAGE)))
 OTHERS = {
     name
-    for page in ("architecture", "contributing", "glossary")
-    for name in PATHS.findall(
-        resources.files(singsym).joinpath("docs", f"{page}.md").read_text(encoding="utf-8")
-    )
+    for page in Path(str(resources.files(singsym).joinpath("docs"))).rglob("*.md")
+    for name in PATHS.findall(page.read_text(encoding="utf-8"))
 }
 GIVEN, WORDS = "given", "words"
 

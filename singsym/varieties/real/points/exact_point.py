@@ -21,7 +21,7 @@ from singsym.varieties.real.points.roots import real_roots, refined_root
 
 @dataclass(frozen=True, repr=False)
 class RealPoint(EnclosedPoint):
-    """A real point with coordinates numerators[i](t) / denominator(t) at one real root t of `minimal`.
+    """A real point with coordinates n(t) / denominator(t), n of `numerators`, at a real root t of `minimal`.
 
     minimal is irreducible over Q, so the point is a real point of a maximal ideal of Q[names]; [low, high]
     holds one root of it.  Coefficient tuples start with the constant term.  `bits` says how small the box is:
