@@ -13,6 +13,8 @@ from importlib import import_module
 from textwrap import fill
 from typing import Any
 
+from singsym.cli import options
+
 STORY = """\
 Finds and classifies every singularity of a mechanism, exactly.
 
@@ -34,17 +36,6 @@ examples:
 Results go to stdout, messages to stderr.  Exit code: 0 decided, 3 a class,
 a dimension or a number is open, 2 usage or bad input, 130 interrupted.  More on a
 command: singsym COMMAND --help"""
-
-_AS_IT_IS: dict[str, Any] = {
-    "settings": [],
-    "formulation": "auto",
-    "base": None,
-    "tip": None,
-    "components": [],
-    "lock": [],
-    "joints": [],
-}
-"""A mechanism of which nothing is chosen: see `_mechanism`."""
 
 
 def _lazily(module: str, function: str) -> Callable[[argparse.Namespace], int]:
@@ -82,57 +73,64 @@ def parser() -> argparse.ArgumentParser:
         command.set_defaults(run=_lazily(module, f"run_{name}"), on_interrupt="")
         for part in parts:
             part(command)
-        _talk(command, works=_work in parts)
+        options.talk(command, works=options.work in parts)
         return command
 
-    short, printed = _formats("text", "json"), _formats("text", "latex", "json")
-    shown = _formats("text", "latex", "json", "toml")
+    short, printed = options.formats("text", "json"), options.formats("text", "latex", "json")
+    shown = options.formats("text", "latex", "json", "toml")
     add("list", "mechanisms", "the mechanisms of the library", short)
-    add("new", "mechanisms", "write a commented mechanism file to start from", _name)
+    add("new", "mechanisms", "write a commented mechanism file to start from", options.name)
     add(
         "show",
         "mechanisms",
         "a mechanism's joints, loop equations, L and modules",
-        _mechanism,
+        options.mechanism,
         shown,
-        _standalone,
+        options.standalone,
     )
-    add("check", "mechanisms", "what is wrong with a mechanism, if anything", _mechanism, short)
-    whole = (_mechanism, _work, printed, _standalone)
+    add("check", "mechanisms", "what is wrong with a mechanism, if anything", options.mechanism, short)
+    whole = (options.mechanism, options.work, printed, options.standalone)
     words = "conditions (4), (5), (i)-(viii), factored"
-    add("conditions", "singularities", words, _mechanism, printed, _standalone, _expand)
-    add("classify", "singularities", "the singularity set and its classes", *whole, _certificate)
+    add("conditions", "singularities", words, options.mechanism, printed, options.standalone, options.expand)
+    add("classify", "singularities", "the singularity set and its classes", *whole, options.certificate)
     words = "check a certificate, without any search, and say what it proves"
-    add("verify", "certificates", words, _certified, short)
-    add("solve", "singularities", "the solution sets of some conditions", *whole, _labels)
+    add("verify", "certificates", words, options.certified, short)
+    add("solve", "singularities", "the solution sets of some conditions", *whole, options.labels)
     words = "ranks, types and null motions of one configuration"
-    add("at", "singularities", words, _mechanism, _configuration, short)
+    add("at", "singularities", words, options.mechanism, options.configuration, short)
     words = "L, the conditions and the assemblies as code of their own, for a controller"
-    add("export", "motion", words, _mechanism, _language)
+    add("export", "motion", words, options.mechanism, options.language)
     words = "the singularities that a trajectory meets or narrowly passes"
-    add("follow", "motion", words, _mechanism, _trajectory, short)
+    add("follow", "motion", words, options.mechanism, options.trajectory, short)
     add(
         "classes",
         "singularities",
         "the classes that a mobility allows (Table 1)",
-        _mobility,
+        options.mobility,
         printed,
-        _standalone,
+        options.standalone,
     )
     add(
         "plot",
         "pictures",
         "draw the mechanism, its modules, a class or the singularity curves",
-        _mechanism,
-        _work,
-        _shown,
+        options.mechanism,
+        options.work,
+        options.shown,
     )
-    add("report", "pictures", "one HTML page with everything about a mechanism", _mechanism, _work, _output)
+    add(
+        "report",
+        "pictures",
+        "one HTML page with everything about a mechanism",
+        options.mechanism,
+        options.work,
+        options.output,
+    )
     words = "a web page of each mechanism of the library, and an index"
-    add("gallery", "gallery", words, _work, _folder).set_defaults(**_AS_IT_IS)
-    add("engines", "tools", "which engines there are, and how to get the others", _install, short)
-    add("cache", "tools", "the results that are kept on disk, and how to clear them", _clear, short)
-    add("completion", "tools", "a script that completes commands in a shell", _shell)
+    add("gallery", "gallery", words, options.work, options.folder).set_defaults(**options.AS_IT_IS)
+    add("engines", "tools", "which engines there are, and how to get the others", options.install, short)
+    add("cache", "tools", "the results that are kept on disk, and how to clear them", options.clear, short)
+    add("completion", "tools", "a script that completes commands in a shell", options.shell)
     return top
 
 
@@ -169,275 +167,3 @@ def _version() -> str:
         return version("singsym")
     except PackageNotFoundError:
         return "(not installed)"
-
-
-def _mechanism(command: argparse.ArgumentParser) -> None:
-    command.add_argument(
-        "mechanism", metavar="MECHANISM", help="a name of the library, a TOML or a URDF file"
-    )
-    command.add_argument(
-        "--set",
-        dest="settings",
-        action="append",
-        default=[],
-        metavar="NAME=VALUE",
-        help="set a parameter, as a=3/2; NAME= keeps it symbolic (repeatable)",
-    )
-    command.add_argument(
-        "--formulation",
-        default="auto",
-        choices=("auto", "planar", "spherical", "joint", "natural", "quaternion"),
-        help="the configuration variables (default: by kind of mechanism)",
-    )
-    _parts(command)
-
-
-def _parts(command: argparse.ArgumentParser) -> None:
-    """What is meant of a mechanism, where the file holds more."""
-    group = command.add_argument_group("parts of the mechanism")
-    group.add_argument("--base", metavar="LINK", help="where a URDF file's chain starts (default: its root)")
-    group.add_argument(
-        "--tip",
-        metavar="LINK",
-        help="where a URDF file's chain ends (default: its only end); "
-        "the site or body of an MJCF file whose twist is the output",
-    )
-    group.add_argument(
-        "--components",
-        action="append",
-        default=[],
-        metavar="A,B,...",
-        help="of the output: vx,vy,vz,wx,wy,wz of a link's twist, or x,y,z of a point's velocity",
-    )
-    group.add_argument(
-        "--lock",
-        action="append",
-        default=[],
-        metavar="JOINT=VALUE",
-        help="hold an input joint, as elbow=0, elbow=pi/2 or elbow='30 deg'; bare numbers are radians, "
-        "lengths those of the file (repeatable)",
-    )
-    group.add_argument(
-        "--joints",
-        action="append",
-        default=[],
-        metavar="A,B,...",
-        help="those that move; hold all others at 0, or in a URDF file within limits that leave 0 out",
-    )
-
-
-def _certificate(command: argparse.ArgumentParser) -> None:
-    command.add_argument(
-        "--certificate", metavar="FILE", help="write a proof of the table, which singsym verify checks"
-    )
-
-
-def _certified(command: argparse.ArgumentParser) -> None:
-    command.add_argument("file", metavar="FILE", help="that singsym classify --certificate wrote")
-    command.add_argument("--mechanism", metavar="MECHANISM", help="check that it is about this mechanism")
-    command.set_defaults(**_AS_IT_IS)
-
-
-def _name(command: argparse.ArgumentParser) -> None:
-    command.add_argument("name", metavar="NAME", help="of the mechanism; the file is NAME.toml")
-    command.add_argument("--force", action="store_true", help="overwrite the file")
-
-
-def _formats(*names: str) -> Callable[[argparse.ArgumentParser], None]:
-    def part(command: argparse.ArgumentParser) -> None:
-        command.add_argument("--format", default="text", choices=names, help="of the output (default: text)")
-
-    return part
-
-
-def _expand(command: argparse.ArgumentParser) -> None:
-    command.add_argument(
-        "--expand", action="store_true", help="L before and after the reduction, all terms of polynomials"
-    )
-
-
-def _standalone(command: argparse.ArgumentParser) -> None:
-    command.add_argument("--standalone", action="store_true", help="with latex: a whole document")
-
-
-def _positive(text: str) -> float:
-    value = float(text)
-    if not value > 0:
-        raise argparse.ArgumentTypeError(f"found {text}; expected a positive number")
-    return value
-
-
-def _at_least_one(text: str) -> int:
-    if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"found {text!r}; expected a whole number from 1")
-    return int(text)
-
-
-def _work(command: argparse.ArgumentParser) -> None:
-    command.add_argument(
-        "--engine",
-        dest="engines",
-        action="append",
-        default=[],
-        choices=("flint", "msolve", "singular", "sympy"),
-        help="use this engine and no other (repeatable)",
-    )
-    command.add_argument(
-        "--budget",
-        type=_positive,
-        metavar="SECONDS",
-        help="on the clock, a tenth or 60 for each part; what takes longer is undecided "
-        "(default: 3600 of processor time, so that a busy machine changes no answer)",
-    )
-    who = command.add_mutually_exclusive_group()
-    who.add_argument(
-        "--workers", type=_at_least_one, default=_workers(), help="processes (default: %(default)s)"
-    )
-    who.add_argument(
-        "--scheduler",
-        metavar="ADDRESS",
-        help="of a Dask cluster whose workers are used instead, as tcp://127.0.0.1:8786",
-    )
-    command.add_argument(
-        "--no-cache", dest="cache", action="store_false", help="neither read nor keep results on disk"
-    )
-
-
-def _workers() -> str:
-    """The default, as text: argparse takes the same number for an option that was not given."""
-    import os
-
-    return str(min(4, os.cpu_count() or 1))
-
-
-def _labels(command: argparse.ArgumentParser) -> None:
-    labels = ("4", "5", "i", "ii", "iii", "iv", "v", "vi", "vii", "viii")
-    command.add_argument(
-        "labels", nargs="+", metavar="CONDITION", choices=labels, help="of " + ", ".join(labels)
-    )
-
-
-def _configuration(command: argparse.ArgumentParser) -> None:
-    command.add_argument(
-        "--config",
-        required=True,
-        metavar="FILE",
-        help="TOML with [joints] A = '30 deg', [points] B = [0.3, 0.95], [variables] Bx = 0.3",
-    )
-    command.add_argument("--tolerance", type=_positive, help="singular values below this count as zero")
-    command.add_argument(
-        "--distance",
-        action="store_true",
-        help="how far away the nearest singularity of each type is, and which way leads away",
-    )
-
-
-def _trajectory(command: argparse.ArgumentParser) -> None:
-    command.add_argument(
-        "trajectory",
-        metavar="FILE",
-        help="comma-separated values with a header: t, then joints (radians, or as 'A deg') or "
-        "coordinates as C.x, as many as the mobility",
-    )
-    command.add_argument(
-        "--config", metavar="FILE", help="a configuration to start near, as for `at`: of several, which one"
-    )
-    command.add_argument("-o", "--output", metavar="FILE", help="a picture of the margins to write")
-
-
-def _language(command: argparse.ArgumentParser) -> None:
-    command.add_argument(
-        "--to",
-        dest="language",
-        default="python",
-        choices=("python", "c"),
-        help="Python with its module math, or C99 (default: %(default)s)",
-    )
-
-
-def _mobility(command: argparse.ArgumentParser) -> None:
-    command.add_argument(
-        "--n", type=_at_least_one, default=3, help="the mobility (default: 3, which allows all)"
-    )
-
-
-def _output(command: argparse.ArgumentParser) -> None:
-    command.add_argument(
-        "-o", "--output", metavar="FILE", help="to write (default: named after the mechanism)"
-    )
-
-
-def _folder(command: argparse.ArgumentParser) -> None:
-    command.add_argument(
-        "-o", "--output", default="gallery", metavar="DIR", help="folder to write to (default: %(default)s)"
-    )
-    command.add_argument(
-        "--only",
-        nargs="+",
-        action="extend",
-        default=[],
-        metavar="NAME",
-        help="these mechanisms and no others",
-    )
-
-
-def _shown(command: argparse.ArgumentParser) -> None:
-    _output(command)
-    choice = command.add_mutually_exclusive_group()
-    choice.add_argument(
-        "--class",
-        dest="shown",
-        metavar="NUMBER",
-        help="a class, one file for each of its families, as --class 4",
-    )
-    choice.add_argument(
-        "--curves",
-        dest="shown",
-        choices=("inputs", "outputs"),
-        help="the singularity curves over the plane of two inputs or outputs",
-    )
-    choice.add_argument(
-        "--strata", dest="shown", action="store_const", const="strata", help="which class borders on which"
-    )
-    choice.add_argument(
-        "--regions",
-        dest="shown",
-        action="store_const",
-        const="regions",
-        help="assemblies and singularity-free regions over the plane of two inputs",
-    )
-    choice.add_argument(
-        "--modules",
-        dest="shown",
-        action="store_const",
-        const="modules",
-        help="what is solved after what, driven from the inputs and from the outputs",
-    )
-
-
-def _clear(command: argparse.ArgumentParser) -> None:
-    command.add_argument("--clear", action="store_true", help="take all of them away")
-
-
-def _talk(command: argparse.ArgumentParser, works: bool) -> None:
-    """What is said on stderr; works: whether the command may take long."""
-    command.set_defaults(talk="usual")
-    choice = command.add_mutually_exclusive_group()
-
-    def add(name: str, words: str) -> None:
-        choice.add_argument(f"--{name}", dest="talk", action="store_const", const=name, help=words)
-
-    add("quiet", "nothing on stderr but errors")
-    if works:
-        add("progress", "lines on stderr while it works, where that is no terminal too")
-    add("verbose", "all that happens, as lines on stderr")
-
-
-def _shell(command: argparse.ArgumentParser) -> None:
-    command.add_argument("shell", choices=("bash", "zsh"), help='use: eval "$(singsym completion bash)"')
-
-
-def _install(command: argparse.ArgumentParser) -> None:
-    command.add_argument(
-        "--install", action="store_true", help="bring Singular and msolve with pip, beside the packages"
-    )
