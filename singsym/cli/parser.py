@@ -27,9 +27,7 @@ proven empty, or shown by a certified configuration."""
 EXAMPLES = """\
 examples:
   singsym classify zlatanov-2dof              which classes occur, where, how often
-  singsym conditions stewart-gough            the factored singularity conditions
   singsym classify zlatanov-hybrid --set a=3/2 --workers 2
-  singsym show robot.urdf                     its chains, joints and limits
   singsym conditions robot.urdf --tip tool0 --lock elbow=0
   singsym new mine && singsym check mine.toml && singsym classify mine.toml
 

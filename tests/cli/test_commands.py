@@ -64,7 +64,7 @@ def test_conditions_of_the_linkage_are_the_papers(capsys):
 def test_conditions_in_names_of_lengths_and_expanded(capsys):
     """The elbow of the PUMA in the letters of its DH table; L is printed when all is asked for."""
     assert main(["conditions", "puma560"]) == 0
-    assert "or a3*s3 + d4*c3 = 0\n" in (text := capsys.readouterr().out)
+    assert "or det[z1 O1O2 O1O4] = a2*(a3*s3 + d4*c3) = 0  (elbow: " in (text := capsys.readouterr().out)
     assert text.endswith("with a2 = 0.4318, a3 = 0.0203, d4 = 0.4318\n")
     found = data(capsys, "conditions", "puma560")
     assert found["lengths"]["a3"] == "203/10000"

@@ -76,10 +76,10 @@ def test_lines_off_a_terminal(capsys: pytest.CaptureFixture[str]) -> None:
     told = capsys.readouterr()
     lines = told.err.splitlines()
     assert [re.sub(r"^\d+ s: ", "", line) for line in lines] == [
-        "(4): Bx - d_P = 0",
-        "(5): By = 0; or d_P = 0",
+        "(4): BC perpendicular to slide P",
+        "(5): AB parallel to slide P; or AC perpendicular to slide P",
         "strata, 0 of 2",
-        "real points, 0 of 4",
+        "real points, 0 of 5",
         "1 (RI, IO): occurs",
         "loci, 0 of 3",
     ]
