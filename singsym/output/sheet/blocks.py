@@ -66,7 +66,7 @@ def blocks(
     >>> mechanism = load("zlatanov-2dof")
     >>> for row in blocks(velocity_equation(mechanism), mechanism).cells:
     ...     print(" ".join(row))
-    I 0 0 0 0 0 -m_{EG} -m_{FG} 0
+    I 0 0 0 0 0 -m_{EG} m_{FG} 0
     0 S_{A} S_{B} S_{C1} 0 -S_{D} 0 0 0
     0 0 0 0 S_{C2} S_{D} -S_{E} S_{F} S_{G}
     """
