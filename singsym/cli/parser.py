@@ -94,9 +94,9 @@ def parser() -> argparse.ArgumentParser:
     add("solve", "singularities", "the solution sets of some conditions", *whole, _labels)
     words = "ranks, types and null motions of one configuration"
     add("at", "singularities", words, _mechanism, _configuration, short)
-    words = "L, the conditions and the assemblies as code of their own, for a controller"
+    words = "L, conditions and assemblies as code for a controller"
     add("export", "motion", words, _mechanism, _language)
-    words = "the singularities that a trajectory meets or narrowly passes"
+    words = "the singularities on a trajectory"
     add("follow", "motion", words, _mechanism, _trajectory, short)
     add(
         "classes",
