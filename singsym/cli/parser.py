@@ -27,6 +27,7 @@ proven empty, or shown by a certified configuration."""
 EXAMPLES = """\
 examples:
   singsym classify zlatanov-2dof              which classes occur, where, how often
+  singsym conditions stewart-gough            the factored singularity conditions
   singsym classify zlatanov-hybrid --set a=3/2 --workers 2
   singsym conditions robot.urdf --tip tool0 --lock elbow=0
   singsym new mine && singsym check mine.toml && singsym classify mine.toml
@@ -96,9 +97,9 @@ def parser() -> argparse.ArgumentParser:
     add("solve", "singularities", "the solution sets of some conditions", *whole, options.labels)
     words = "ranks, types and null motions of one configuration"
     add("at", "singularities", words, options.mechanism, options.configuration, short)
-    words = "L, the conditions and the assemblies as code of their own, for a controller"
+    words = "L, conditions and assemblies as code for a controller"
     add("export", "motion", words, options.mechanism, options.language)
-    words = "the singularities that a trajectory meets or narrowly passes"
+    words = "the singularities on a trajectory"
     add("follow", "motion", words, options.mechanism, options.trajectory, short)
     add(
         "classes",
