@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx
+from flint import fmpq_mpoly, fmpq_mpoly_ctx
 
 from singsym.certificates.checker.polynomials import Rejected, polynomial, rational, ring
 
@@ -115,7 +115,7 @@ def statement(data: Mapping[str, Any]) -> Statement:
         if len(entry) != 3:
             raise Rejected(f"constants: expected [name, low, high], got {entry}")
         gen = polynomial(entry[0], context)
-        nonnegative += [gen - _number(entry[1]), _number(entry[2]) - gen]
+        nonnegative += [gen - rational(entry[1]), rational(entry[2]) - gen]
     units = []
     for exclusion in listed(data, "exclusions", list):
         parts = read(exclusion)
@@ -141,7 +141,3 @@ def statement(data: Mapping[str, Any]) -> Statement:
     if [roles.count(role) for role in ROLES] != [n, n, N - n]:
         raise Rejected(f"L: expected {n} output, {n} input and {N - n} passive columns, as N = {N}, n = {n}")
     return Statement(whole, N, n)
-
-
-def _number(text: Any) -> fmpq:
-    return rational(text)
