@@ -250,14 +250,13 @@ class Conditions:
         found = self._determinant(name)
         if found is None:
             blocks, own = self.rank_blocks(name), self.incidences.bracket_of(name)
-            return Condition(label, _TYPES[label], plain, latex, blocks=blocks, bracket=own)
+            apart = None if own else self._equilibrium(label)
+            return Condition(
+                label, _TYPES[label], plain, latex, blocks=blocks, bracket=own, equilibrium=apart
+            )
         factors = tuple(self.factor(p, k) for p, k in found.factors)
         if name == "L_O" and len(factors) == 1 and not factors[0].words and self.naming:
             factors = (replace(factors[0], said=self.incidences.output_at_rest),)
-            apart = self.rank_blocks(name)
-            return Condition(
-                label, _TYPES[label], plain, latex, blocks=apart, equilibrium=self._equilibrium(label)
-            )
         return Condition(
             label,
             _TYPES[label],

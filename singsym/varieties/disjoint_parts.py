@@ -32,6 +32,8 @@ def disjoint_parts(equations: Equations) -> tuple[Equations, ...]:
     (u + w, 5*y + 2*v + 7, 5*x + 2*u - 21)
     (u + w, 5*y - 12*v - 7, 5*x - 12*u + 21)
     """
+    if not equations:
+        return (equations,)
     return remember("disjoint parts", (equations[0].ring, equations), lambda: tuple(_parts(equations)))
 
 

@@ -11,7 +11,7 @@ from singsym.classes.result import Classification
 from singsym.classes.taxonomy.types import SingularityType, feasible_classes
 from singsym.elimination import engines
 from singsym.elimination.ideal import Ideal
-from singsym.mechanism import JointRate, load
+from singsym.mechanism import JointRate, load, loads
 from singsym.output.plain_data import classification_data
 
 T = SingularityType
@@ -144,3 +144,13 @@ def test_too_small_a_budget_leaves_doubts_and_no_false_answers() -> None:
             assert c.verdict.reason
     rpm = hurried[T.RPM | T.II | T.IO]
     assert not rpm.verdict.is_no
+
+
+def test_a_gantry_without_loops_or_turns() -> None:
+    """Three slides at right angles: no equation, and the identity as its Jacobian, so nothing is singular."""
+    rows = '{ joint = "P", alpha = -90, theta = -90 }, { joint = "P", alpha = 90, theta = 90 }, { joint = "P" }'
+    text = 'name = "gantry"\nspace = "spatial"\noutput = { twist = "link3", components = ["vx", "vy", "vz"] }\n'
+    result = classify(loads(f"{text}[dh]\nconvention = 'standard'\nrows = [ {rows} ]\n"), cache=False)
+    assert all(c.verdict.is_no for c in result.classes)
+    (space,) = result.configuration_space
+    assert space.dimension == 3
