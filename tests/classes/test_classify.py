@@ -148,9 +148,17 @@ def test_too_small_a_budget_leaves_doubts_and_no_false_answers() -> None:
 
 def test_a_gantry_without_loops_or_turns() -> None:
     """Three slides at right angles: no equation, and the identity as its Jacobian, so nothing is singular."""
-    rows = '{ joint = "P", alpha = -90, theta = -90 }, { joint = "P", alpha = 90, theta = 90 }, { joint = "P" }'
-    text = 'name = "gantry"\nspace = "spatial"\noutput = { twist = "link3", components = ["vx", "vy", "vz"] }\n'
-    result = classify(loads(f"{text}[dh]\nconvention = 'standard'\nrows = [ {rows} ]\n"), cache=False)
+    gantry = """name = "gantry"
+        space = "spatial"
+        output = { twist = "link3", components = ["vx", "vy", "vz"] }
+        [dh]
+        convention = "standard"
+        rows = [
+            { joint = "P", alpha = -90, theta = -90 },
+            { joint = "P", alpha = 90, theta = 90 },
+            { joint = "P" },
+        ]"""
+    result = classify(loads(gantry), cache=False)
     assert all(c.verdict.is_no for c in result.classes)
     (space,) = result.configuration_space
     assert space.dimension == 3
