@@ -24,8 +24,7 @@ from tests.laws.answers import Answer, contradictions
 from tests.laws.disguises import DISGUISES
 from tests.laws.draws import SEED, draw, runs
 
-LONG = {"zlatanov-hybrid", "zlatanov-hybrid-3-2", "3upu-tsai", "3rps", "stewart-gough", "zlatanov-2dof"}
-LONG |= {"spherical-3rrr", "pair-16", "pair-17", "pair-19", "pair-20", "pair-21"}
+LONG = {"zlatanov-hybrid", "zlatanov-hybrid-3-2", "3upu-tsai", "3rps", "stewart-gough", "spherical-3rrr"}
 """Mechanisms that take more than ten seconds."""
 NAMES = [name for name in library.names() if name not in LONG]
 GUISES = [(name, guise) for name in NAMES for guise in DISGUISES]
