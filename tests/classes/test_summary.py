@@ -160,7 +160,7 @@ def test_loci_are_in_names_of_lengths_with_their_values_beside() -> None:
     result = classify(load("crank-slotted-lever"), cache=False)
     assert result.lengths_note == "g = 2"
     page = plain(classification_page(result))
-    assert "g*s_block - d_P" in page
+    assert "AB perpendicular to slide P" in page
     assert "; g = 2" in page
     assert "2*s_block" not in page
     found = {locus["factor"]: locus["in_lengths"] for locus in classification_data(result)["loci"]}
