@@ -29,17 +29,6 @@ def find_program(name: str, variable: str) -> str:
     named = os.environ.get(variable)
     if named is not None:
         return shutil.which(named) or ""
-    known = _found.get(name, "")
-    if not os.access(known, os.X_OK):
-        known = _found[name] = _searched(name)
-    return known
-
-
-_found: dict[str, str] = {}
-"""Where programs were last time: they are asked for before every question."""
-
-
-def _searched(name: str) -> str:
     wheels = (*own_folders(), *(Path(sysconfig.get_path(scheme)) for scheme in ("purelib", "platlib")))
     for folder in wheels:
         if found := shutil.which(name, path=str(folder / "sage_wheels" / "bin")):
