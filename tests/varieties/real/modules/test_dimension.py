@@ -26,7 +26,7 @@ def test_a_dyad_that_may_turn_freely() -> None:
     """With both bars of length 3 and the pivot at (2, 0), the tip passes there, and the dyad turns about it.
 
     That is a circle over one point, beside a curve, times the plane of u and v; without the crank beside all
-    that c, s and v may be.  A second dyad over it adds nothing, but for one that turns freely with it: a torus."""
+    that c, s and v may be.  A second dyad over it adds nothing, but one that turns freely too: a torus."""
     systems = (
         (CRANK, *dyad_over(2)),
         (U - C * S, *dyad_over(2)),
