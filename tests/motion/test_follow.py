@@ -98,7 +98,7 @@ def test_a_slide_cannot_be_driven_beyond_the_dead_point() -> None:
     assert found.until <= (4 - slide) / (5 - slide)
     (end,) = found.passages
     assert (end.kind, str(end.types), end.types_certified) == ("end", "RI, IO", False)
-    assert end.words == "By = 0"
+    assert end.words == "AB parallel to slide P"
 
 
 def test_turning_back_before_is_narrow_and_touching_is_open() -> None:
