@@ -180,6 +180,7 @@ def coverings(found: Tower, solve: Solver, budget: Budget) -> Known[tuple[Coveri
 
     >>> from singsym.polynomials import Ring
     >>> from singsym.varieties.real.modules.towers import towers
+    >>> from singsym.varieties.real.points.finite_sets import real_points
     >>> ring = Ring(("c", "s", "x", "y"))
     >>> c, s, x, y = ring.gens
     >>> parallelogram = (c**2 + s**2 - 1, (x - c) ** 2 + (y - s) ** 2 - 4, (x - 2) ** 2 + y**2 - 1)
