@@ -5,7 +5,6 @@ Source: Zlatanov, Fenton, Benhabib (1998), sections 3 and 4, print conditions as
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from functools import cached_property
 from math import prod
@@ -95,12 +94,12 @@ class Factor:
         u.v = 3*(x + y)  (axes u and v perpendicular) u \cdot v = 3(x + y)
         """
         if self.name is None or self._multiple is not None:
-            shown = _text(self._multiple or self.polynomial, longest)
+            shown = (self._multiple or self.polynomial).short_text(longest)
             return f"{self.name.quantity.text} = {shown}" if self.name else shown
         root = f"sqrt({self.name.radicand})" if self.name.radicand != 1 else ""
-        parts = [_in_brackets(_text(f, longest), f) for f in self._scale]
+        parts = [_in_brackets(f.short_text(longest), f) for f in self._scale]
         outer = [part for part in (*parts, root) if part not in ("", "1")]
-        whole = "*".join((*outer, _in_brackets(_text(self.polynomial, longest), self.polynomial)))
+        whole = "*".join((*outer, _in_brackets(self.polynomial.short_text(longest), self.polynomial)))
         return f"{self.name.quantity.text} = {whole}"
 
     @property
@@ -130,14 +129,3 @@ class Factor:
 def _in_brackets(shown: str, polynomial: Polynomial, left: str = "(", right: str = ")") -> str:
     """A polynomial as a factor of a product."""
     return f"{left}{shown}{right}" if len(polynomial) > 1 else shown
-
-
-def _text(polynomial: Polynomial, longest: int | None) -> str:
-    """A polynomial as text, constants by what they are."""
-    shown = str(polynomial) if longest is None else polynomial.short_text(longest)
-    for constant in polynomial.ring.constants:
-        if constant.text:
-            single = re.fullmatch(r"\w+(\([^()]*\))?", constant.text)
-            root = constant.text if single else f"({constant.text})"
-            shown = re.sub(rf"\b{re.escape(constant.name)}\b", root.replace("**", "^"), shown)
-    return shown

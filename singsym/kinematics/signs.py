@@ -5,11 +5,12 @@ Source: singsym's own: sums of terms of one sign, interval arithmetic, completed
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from decimal import Decimal
 from fractions import Fraction
 from functools import cached_property, lru_cache
-from math import inf, isfinite
+from math import ceil, floor, inf, isfinite, log10
 
 from singsym.polynomials import Polynomial, Ring
 from singsym.polynomials.ranges import EVERYTHING, Interval, fraction, meet, polynomial_range, root_above
@@ -17,6 +18,9 @@ from singsym.polynomials.short_forms import ShortForms, short_forms
 
 # relative to the largest term
 _ROUNDING = 1e-9
+
+_LONGEST_DENOMINATOR = 1000
+"""Bounds with larger ones are printed as decimals."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +58,7 @@ class Signs:
         if not self._straddles_zero(polynomial):
             low, high = polynomial_range(polynomial, self._bounds)
             if low > 0 or high < 0:
-                return f"between {low} and {high} on the configuration space"
+                return f"between {_shown(low, floor)} and {_shown(high, ceil)} on the configuration space"
         if is_definite(polynomial) or is_definite(-polynomial):
             return f"{polynomial.short_text()}, a sum of squares and a constant"
         return None
@@ -167,3 +171,15 @@ def signs(
 ) -> Signs:
     """Those of a set, one object for equal sets, as it keeps what it found."""
     return Signs(short_forms(ring, equations), positive, nonnegative)
+
+
+def _shown(bound: Fraction | float, rounded: Callable[[Fraction], int]) -> str:
+    """A bound, where it is long as a decimal that is rounded outwards.
+
+    >>> _shown(Fraction(2, 3), floor), _shown(Fraction(-12345678, 10**6 + 3), floor)
+    ('2/3', '-12.346')
+    """
+    if isinstance(bound, float) or bound.denominator <= _LONGEST_DENOMINATOR:
+        return str(bound)
+    size = 10 ** max(3, 3 - floor(log10(abs(bound))))
+    return str(Decimal(rounded(bound * size)) / size)

@@ -34,6 +34,7 @@ def symbol_latex(name: str) -> str:
 def polynomial_latex(polynomial: Polynomial, longest: int = 24) -> str:
     """A polynomial in LaTeX, cut after some terms with the number of those left out."""
     ring = polynomial.ring
+    polynomial = ring.reduced(polynomial)
     names = {sympy.Symbol(name): symbol_latex(name) for name in ring.names}
     if len(polynomial) <= longest:
         return str(sympy.latex(polynomial.to_sympy(), symbol_names=names))

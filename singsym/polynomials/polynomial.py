@@ -5,6 +5,7 @@ Source: FLINT (https://flintlib.org), through python-flint.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
@@ -325,18 +326,27 @@ class Polynomial:
     def __repr__(self) -> str:
         return str(self.value)
 
-    def short_text(self, longest: int = 8) -> str:
-        """The polynomial as text, cut after `longest` terms, with the number of those left out.
+    def short_text(self, longest: int | None = 8) -> str:
+        """The polynomial as a person writes it, cut after `longest` terms, with the number of those left out.
+
+        Constants are written as what they are, in degrees below those of their minimal polynomials.
 
         >>> from singsym.polynomials import Ring
         >>> x, y = Ring(("x", "y")).gens
         >>> ((x + y) ** 3).short_text(2)
         'x^3 + 3*x^2*y + ... (2 more terms)'
         """
-        if len(self) <= longest:
-            return str(self)
-        head = self.ring.from_dict(dict(self.terms()[:longest]))
-        return f"{head} + ... ({len(self) - longest} more terms)"
+        ring, value = self.ring, self.ring.reduced(self)
+        left_out = 0 if longest is None else max(0, len(value) - longest)
+        if left_out:
+            value = ring.from_dict(dict(value.terms()[:longest]))
+        shown = str(value)
+        for constant in ring.constants:
+            if constant.text:
+                single = re.fullmatch(r"\w+(\([^()]*\))?", constant.text)
+                root = constant.text if single else f"({constant.text})"
+                shown = re.sub(rf"\b{re.escape(constant.name)}\b", root.replace("**", "^"), shown)
+        return f"{shown} + ... ({left_out} more terms)" if left_out else shown
 
     def __bool__(self) -> bool:
         return not self.is_zero
