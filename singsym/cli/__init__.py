@@ -17,6 +17,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from io import TextIOWrapper
 from types import FrameType
+from typing import TextIO
 
 from singsym.cli.screen import UserError, say
 
@@ -53,10 +54,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         say(f"singsym {chosen.command}: {error}")
         return USAGE
     except BrokenPipeError:
-        _forget_output()
+        _forget(sys.stdout)
         return BROKEN_PIPE
     except OSError as error:
-        _forget_output()
+        _forget(sys.stdout)
         place = error.filename or "standard output"
         say(f"singsym {chosen.command}: {place} cannot be used: {error.strerror or error}")
         return NOT_WRITTEN
@@ -65,6 +66,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         say(f"singsym {chosen.command}: interrupted{during}{chosen.on_interrupt}")
         sys.stdout.flush()
         return ended.code
+    finally:
+        try:
+            sys.stderr.flush()
+        except OSError:
+            _forget(sys.stderr)
     return code
 
 
@@ -83,9 +89,9 @@ def _opened() -> bool:
     return closed
 
 
-def _forget_output() -> None:
-    """Nobody reads it, or it has no place: the flush at exit would complain again."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+def _forget(stream: TextIO) -> None:
+    """Nobody reads what is left in it, or it has no place: the flush at exit would complain again."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 @dataclass
