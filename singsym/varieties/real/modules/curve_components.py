@@ -17,6 +17,7 @@ from singsym.elimination.linear_substitution import Substitution
 from singsym.elimination.memo import remember
 from singsym.polynomials import Equations, Polynomial
 from singsym.polynomials.block_form import with_last_modules
+from singsym.varieties.disjoint_parts import disjoint_parts
 from singsym.varieties.real.curves.arithmetic import System
 from singsym.varieties.real.curves.real_curve import real_curve
 from singsym.varieties.real.modules.assemblies import is_round
@@ -41,6 +42,9 @@ def components_off(equations: Equations, exclusions: Sequence[Equations], budget
     >>> components_off(four_bar, (), Budget()), components_off(four_bar, ((y,), (c, s)), Budget())
     (2, 2)
     """
+    parts = disjoint_parts(equations)
+    if len(parts) > 1:
+        return sum(components_off(part, exclusions, budget) for part in parts)
     left, given = without_given(equations)
     if left and next(towers(left), None) is not None:
         with attempt("the components of a curve of dyads over circles", share=1 / 2):
