@@ -40,29 +40,23 @@ class SolvingOrder:
 
     def ancestors(self, module: Module) -> tuple[Module, ...]:
         """The modules that have to be solved before this one, in order."""
-        needed = set(module.parents)
+        return self.determining(module.parents)
+
+    def determining(self, names: Collection[str]) -> tuple[Module, ...]:
+        """The modules that determine these variables, and all that they need, in order.
+
+        >>> from singsym.polynomials import Ring
+        >>> x, y, z = Ring(("x", "y", "z")).gens
+        >>> [m.unknowns for m in block_form((y * z - 1, x**2 - 2, x + y - 3)).determining(("y",))]
+        [('x',), ('y',)]
+        """
+        needed = set(names)
         found: list[Module] = []
-        for other in reversed(self.modules[: self.modules.index(module)]):
-            if needed & set(other.unknowns):
-                needed |= set(other.parents)
-                found.append(other)
+        for module in reversed(self.modules):
+            if needed & set(module.unknowns):
+                needed |= set(module.parents)
+                found.append(module)
         return tuple(reversed(found))
-
-
-def determining(equations: Sequence[Polynomial], names: Collection[str]) -> tuple[Polynomial, ...]:
-    """The equations that determine these variables: of their modules, and of all that these need.
-
-    >>> from singsym.polynomials import Ring
-    >>> x, y, z = Ring(("x", "y", "z")).gens
-    >>> [str(p) for p in determining((y * z - 1, x**2 - 2, x + y - 3), ("y",))]
-    ['x + y - 3', 'x^2 - 2']
-    """
-    needed, found = set(names), list[Polynomial]()
-    for module in reversed(block_form(equations).modules):
-        if needed & set(module.unknowns):
-            needed |= set(module.parents)
-            found += module.equations
-    return tuple(found)
 
 
 def block_form(equations: Sequence[Polynomial], given: Collection[str] = ()) -> SolvingOrder:

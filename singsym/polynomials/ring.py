@@ -5,7 +5,7 @@ Source: the border between SymPy and FLINT; FLINT (https://flintlib.org), SymPy 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property, lru_cache
@@ -170,6 +170,14 @@ class Ring:
         kept = tuple(names)
         constants = tuple(c for c in self.constants if c.name in kept)
         return Ring(kept, order or self.order, constants)
+
+    def subring(self, names: Collection[str]) -> Ring:
+        """The ring in those of its names that are among these, in its order.
+
+        >>> Ring(("x", "y", "z")).subring({"z", "x"}).names
+        ('x', 'z')
+        """
+        return self.with_names(name for name in self.names if name in names)
 
     def convert(self, polynomial: Polynomial) -> Polynomial:
         """The polynomial as an element of this ring; raises `KeyError` where a variable is missing.

@@ -187,7 +187,7 @@ def _product(factors: Sequence[Polynomial], ring: Ring) -> Polynomial:
 def _lifted(piece: Component, equation: Polynomial) -> Component:
     """The graph of a polynomial over a piece: isomorphic to it."""
     names = {*piece.ideal.ring.names, *equation.variables}
-    ring = equation.ring.with_names(n for n in equation.ring.names if n in names)
+    ring = equation.ring.subring(names)
     free = len(ring.names) - len(piece.ideal.ring.names) - 1
     generators = (*(ring.convert(p) for p in piece.generators), ring.convert(equation))
     return Component(Ideal(ring, generators), piece.prime, piece.dimension + free, piece.purity)

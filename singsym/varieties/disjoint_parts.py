@@ -62,7 +62,7 @@ def _apart(group: Equations) -> tuple[Equations, ...] | None:
     """Disjoint parts of a few equations, each given by as many as it has codimensions; `None` if not seen."""
     names = {name for p in group for name in p.variables}
     constants = {c.name for c in group[0].ring.constants} & names
-    ring = group[0].ring.with_names(tuple(n for n in group[0].ring.names if n in names))
+    ring = group[0].ring.subring(names)
     with attempt("equations that come apart", patience.APART.work):
         found = decompose(tuple(map(ring.convert, group)), ring=ring)
         free = len(ring.names) - len(constants)

@@ -112,5 +112,4 @@ def _next_minimum(steps: Sequence[tuple[frozenset[str], Polynomial]], i: int) ->
 
 def used_ring(ring: Ring, polynomials: Iterable[Polynomial]) -> Ring:
     """The ring in those variables that occur."""
-    used = {name for p in polynomials for name in p.variables}
-    return ring.with_names(n for n in ring.names if n in used)
+    return ring.subring({name for p in polynomials for name in p.variables})

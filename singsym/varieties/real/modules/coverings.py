@@ -66,7 +66,8 @@ class Covering:
         if not start < self.circle.turn(point, BITS[0]) < end:
             raise Undecided("the ends of an arc of a curve are too near")
         for module, sign in zip(self.dyads, arc.signs, strict=True):
-            point = point.over(module, _with(self.ring, point.ring, module), _assembly(module, sign))
+            ring = self.ring.subring((*point.ring.names, *module.unknowns))
+            point = point.over(module, ring, _assembly(module, sign))
         return point
 
     def _span(self, arc: Arc, bits: int) -> tuple[arb, arb]:
@@ -86,7 +87,7 @@ class Covering:
             raise Undecided("two circles of a dyad may be one at a point of a curve")
         discriminant = self.ring.convert(form.discriminant)
         below = self._cut(discriminant, solve, premises)
-        ring = _with(self.circle.whole, self.ring, module)
+        ring = self.circle.whole.subring((*self.ring.names, *module.unknowns))
         equations = tuple(map(ring.convert, (*self.equations, *module.equations)))
         points, origins, number = list[CurvePoint](), set[int](), dict[tuple[int, int], int]()
         for k, point in enumerate(below.points):
@@ -167,11 +168,6 @@ def _assembly(module: Module, sign: int) -> Callable[[Balls], Balls]:
     return values
 
 
-def _with(whole: Ring, ring: Ring, module: Module) -> Ring:
-    """The ring with the unknowns of a module, in the order of the whole."""
-    return whole.with_names(n for n in whole.names if n in ring.names or n in module.unknowns)
-
-
 def coverings(found: Tower, solve: Solver, budget: Budget) -> Known[tuple[Covering, ...]]:
     """The curves of a tower, one over each point of its foundation where its circle has real points.
 
@@ -188,16 +184,13 @@ def coverings(found: Tower, solve: Solver, budget: Budget) -> Known[tuple[Coveri
     >>> len(curve.arcs), len(curve.points) - len(curve.origins)
     (6, 2)
     """
-    ring, premises = found.circle.ring, Premises()
-    below = ring.with_names(n for n in ring.names if any(n in m.unknowns for m in found.foundation))
-    given = tuple(below.convert(p) for m in found.foundation for p in m.equations)
+    premises, given, own = Premises(), found.standing, found.base_ring
     standing: tuple[EnclosedPoint | None, ...] = premises.take(solve(given)) if given else (None,)
-    own = ring.with_names(n for n in ring.names if n in below.names or n in found.base)
     equations = tuple(map(own.convert, (*given, found.circle)))
     curves = []
     for point in standing:
         others = tuple(p for p in standing if p is not None and p is not point)
-        circle = BaseCircle(ring, equations, found.base, point, others, premises)
+        circle = BaseCircle(found.circle.ring, equations, found.base, point, others, premises)
         curve = _circle_alone(circle)
         if curve is None:
             continue

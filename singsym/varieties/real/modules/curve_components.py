@@ -25,13 +25,13 @@ from singsym.varieties.real.modules.coverings import Covering, coverings
 from singsym.varieties.real.modules.curve_point import CurvePoint
 from singsym.varieties.real.modules.lifted_curve import LiftedCurve
 from singsym.varieties.real.modules.module_points import points_of, without_given
-from singsym.varieties.real.modules.towers import towers
+from singsym.varieties.real.modules.towers import Tower, towers
 from singsym.varieties.real.points.boxed_point import BoxPoint
 from singsym.varieties.splitting import used_ring
 
 
 def components_off(equations: Equations, exclusions: Sequence[Equations], budget: Budget) -> int:
-    """How many components of a smooth bounded curve of a core and dyads do not lie in any exclusion.
+    """How many components of a curve of dyads over circles or over a smooth core are in no exclusion.
 
     Raises `Undecided` where the equations are not of such a curve, or this is not proven.
 
@@ -46,9 +46,10 @@ def components_off(equations: Equations, exclusions: Sequence[Equations], budget
     if len(parts) > 1:
         return sum(components_off(part, exclusions, budget) for part in parts)
     left, given = without_given(equations)
-    if left and next(towers(left), None) is not None:
+    if left and (over := next(towers(left), None)) is not None:
         with attempt("the components of a curve of dyads over circles", share=1 / 2):
-            return _over_circles(left, [_with_given(group, given, left) for group in exclusions], budget)
+            groups = [_with_given(group, given, left) for group in exclusions]
+            return _over_circles(over, left, groups, budget)
     key = (equations[0].ring, frozenset(p.primitive() for p in equations))
     points = remember("components by modules", key, lambda: _points(equations, budget), budget)
     return sum(not any(_lies_in(p, group, equations) for group in exclusions) for p in points)
@@ -61,27 +62,22 @@ def _with_given(group: Equations, given: Sequence[Substitution], left: Equations
     return tuple(map(left[0].ring.convert, group))
 
 
-def _over_circles(equations: Equations, exclusions: Sequence[Equations], budget: Budget) -> int:
+def _over_circles(over: Tower, equations: Equations, exclusions: Sequence[Equations], budget: Budget) -> int:
     """Those of a tower: of the graphs of its coverings, for each point of what its circle does not need."""
     key = (equations[0].ring, equations)
-    curves, others = remember("coverings", key, lambda: _coverings(equations, budget), budget)
+    curves, others = remember("coverings", key, lambda: _coverings(over, equations, budget), budget)
     return sum(_components(curve, other, exclusions, equations) for curve in curves for other in others)
 
 
 def _coverings(
-    equations: Equations, budget: Budget
+    over: Tower, equations: Equations, budget: Budget
 ) -> tuple[tuple[Covering, ...], tuple[CurvePoint | None, ...]]:
     """The curves over the circle of a tower, and the points of the modules that it does not need."""
-    found = next(towers(equations))
-    needed, own = {*found.circle.variables}, [found.circle]
-    for module in reversed((*found.foundation, *found.dyads)):
-        if module in found.dyads or needed.intersection(module.unknowns):
-            needed.update(module.unknowns, module.parents)
-            own += module.equations
-    ring = equations[0].ring.with_names(n for n in equations[0].ring.names if n in needed)
-    tower = next(towers([ring.convert(p) for p in equations if p in own]))
-    curves = coverings(tower, points_of, budget).value
+    own = over.needed
     apart = [p for p in equations if p not in own]
+    ring = used_ring(equations[0].ring, own)
+    tower = over if not apart else next(towers([ring.convert(p) for p in equations if p in own]))
+    curves = coverings(tower, points_of, budget).value
     if not apart:
         return curves, (None,)
     beside = used_ring(equations[0].ring, apart)
@@ -135,7 +131,7 @@ def _points(equations: Equations, budget: Budget) -> tuple[BoxPoint, ...]:
     if not core or not dyads or not all(map(is_round, dyads)):
         raise Undecided("the curve has no dyads that come last")
     ring = equations[0].ring
-    below = ring.with_names(tuple(n for n in ring.names if any(n in p.variables for p in core)))
+    below = used_ring(ring, core)
     if len(core) != len(below.names) - 1:
         raise Undecided("the core of the curve is not given by one equation less than unknowns")
     own = tuple(map(below.convert, core))

@@ -14,7 +14,7 @@ from flint import arb
 from singsym.effort.budget import Undecided
 from singsym.effort.verdict import Premises
 from singsym.polynomials import Equations, Polynomial, Ring
-from singsym.polynomials.block_form import Module, determining
+from singsym.polynomials.block_form import Module, block_form
 from singsym.varieties.real.modules.assemblies import value_at
 from singsym.varieties.real.points.enclosed_point import EnclosedPoint
 from singsym.varieties.real.points.finite_sets import real_points
@@ -74,9 +74,8 @@ class CurvePoint:
         return None
 
     def _exact_sign(self, polynomial: Polynomial) -> int:
-        equations = determining(
-            tuple(dict.fromkeys((*self.ring.relations, *self.equations))), polynomial.variables
-        )
+        form = block_form(tuple(dict.fromkeys((*self.ring.relations, *self.equations))))
+        equations = tuple(p for m in form.determining(polynomial.variables) for p in m.equations)
         own = used_ring(self.ring, equations)
         found = self.premises.take(real_points(tuple(map(own.convert, equations))))
         for bits in BITS:

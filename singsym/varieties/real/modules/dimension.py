@@ -64,7 +64,7 @@ def _bound(core: Equations, dyads: Sequence[Module], names: Collection[str], pre
     """A bound for the zeros of a core and dyads in these coordinates."""
     ring = core[0].ring
     if not dyads:
-        below = ring.with_names(n for n in ring.names if n in names)
+        below = ring.subring(names)
         return premises.take(Ideal(below, tuple(map(below.convert, core))).dimension)
     *others, last = dyads
     left = [n for n in names if n not in last.unknowns]

@@ -65,7 +65,7 @@ class LiftedCurve:
         found = dyad(module)
         assert found is not None
         lower = self.system.ring
-        ring = _subring(whole, (*lower.names, *module.unknowns))
+        ring = whole.subring((*lower.names, *module.unknowns))
         equations = tuple(map(ring.convert, (*self.system.equations, *module.equations)))
         discriminant, tangency = lower.convert(found.discriminant), ring.convert(found.tangency)
         marks: list[BoxPoint] = []
@@ -128,15 +128,13 @@ def lifted_curves(found: Tower, solve: Solver, budget: Budget) -> Known[tuple[Li
     Raises `Undecided` where one is not proven to be smooth.
     """
     ring = found.circle.ring
-    below = _subring(ring, [name for m in found.foundation for name in m.unknowns])
-    given = tuple(below.convert(p) for m in found.foundation for p in m.equations)
-    own = _subring(ring, (*below.names, *found.base))
+    given, own = found.standing, found.base_ring
     standing: Known[tuple[BoxPoint | None, ...]] = solve(given) if given else Known((None,))
 
     def over(point: BoxPoint | None) -> LiftedCurve:
         held = () if point is None else point.equations
         equations = tuple(map(own.convert, (*held, found.circle)))
-        known = {} if point is None else dict(zip(below.names, point.refine(_BITS).box, strict=True))
+        known = {} if point is None else dict(zip(point.ring.names, point.refine(_BITS).box, strict=True))
         curve = _traced(own, equations, list(_on_circle(equations, found.base, known)), budget)
         for module in found.dyads:
             curve = curve.lifted(module, ring, budget)
@@ -144,10 +142,6 @@ def lifted_curves(found: Tower, solve: Solver, budget: Budget) -> Known[tuple[Li
         return replace(curve, zeros=zeros)
 
     return standing.map(lambda points: tuple(map(over, points)))
-
-
-def _subring(ring: Ring, names: Sequence[str]) -> Ring:
-    return ring.with_names(tuple(n for n in ring.names if n in names))
 
 
 def _traced(ring: Ring, equations: Equations, marks: Sequence[BoxPoint], budget: Budget) -> LiftedCurve:

@@ -21,7 +21,7 @@ from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.elimination.linear_substitution import Substitution, solved_variable
 from singsym.elimination.memo import remember
 from singsym.polynomials import Equations, Polynomial, Ring
-from singsym.polynomials.block_form import Module, SolvingOrder, block_form, determining
+from singsym.polynomials.block_form import Module, SolvingOrder, block_form
 from singsym.varieties.real.modules.assemblies import assemblies, dyad, is_simple, value_at
 from singsym.varieties.real.modules.coverings import coverings
 from singsym.varieties.real.modules.lifted_curve import is_tower, points_on_tower
@@ -273,7 +273,8 @@ class _Solving:
         """Whether a polynomial vanishes at what is known: by exact algebra in the ring of what it needs."""
         if p.is_zero:
             return True
-        equations = determining(tuple(dict.fromkeys((*self.ring.relations, *known.equations))), p.variables)
+        form = _in_order(self.ring, known.equations)
+        equations = tuple(q for m in form.determining(p.variables) for q in m.equations)
         own = self.ring.with_names(
             tuple(n for n in self.ring.names if any(n in e.variables for e in equations))
         )
@@ -318,7 +319,7 @@ def _may_vanish(p: Polynomial, known: Mapping[str, arb]) -> bool:
 def _alone(step: _Step, ring: Ring) -> Known[tuple[BoxPoint, ...]]:
     """All real points of a step that needs nothing, with its fixed numbers, in boxes quick to refine."""
     names = {name for m in step.modules for name in (*m.unknowns, *m.parents)}
-    own = ring.with_names(tuple(n for n in ring.names if n in names))
+    own = ring.subring(names)
     given = (own.convert(p) for m in step.modules for p in m.equations)
     equations = tuple(dict.fromkeys((*given, *own.relations)))
     many = _bezout(equations) > MOST_SOLUTIONS

@@ -9,8 +9,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
-from singsym.polynomials import Polynomial
-from singsym.polynomials.block_form import Module, block_form
+from singsym.polynomials import Equations, Polynomial, Ring
+from singsym.polynomials.block_form import Module, SolvingOrder, block_form
 from singsym.varieties.real.modules.assemblies import is_circle, is_round
 
 
@@ -26,6 +26,24 @@ class Tower:
     circle: Polynomial
     base: tuple[str, str]
     dyads: tuple[Module, ...]
+
+    @property
+    def standing(self) -> Equations:
+        """The equations of the foundation in their own ring."""
+        below = self.circle.ring.subring([name for m in self.foundation for name in m.unknowns])
+        return tuple(below.convert(p) for m in self.foundation for p in m.equations)
+
+    @property
+    def base_ring(self) -> Ring:
+        """The ring of the foundation and of the circle."""
+        return self.circle.ring.subring([*self.base, *(name for m in self.foundation for name in m.unknowns)])
+
+    @property
+    def needed(self) -> Equations:
+        """Its equations without those of the foundation that neither the circle nor a dyad needs."""
+        names = {*self.circle.variables, *(name for m in self.dyads for name in (*m.unknowns, *m.parents))}
+        form = SolvingOrder((*self.foundation, *self.dyads), (), ())
+        return (self.circle, *(p for m in form.determining(names) for p in m.equations))
 
 
 def towers(equations: Sequence[Polynomial]) -> Iterator[Tower]:
