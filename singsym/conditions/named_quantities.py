@@ -69,13 +69,9 @@ class PointNames:
     certifier: Certifier
     incidences: Incidences | None = None
 
-    @cached_property
+    @property
     def _points(self) -> dict[str, Vector]:
-        """The named points, one name for each place."""
-        found: dict[Vector, str] = {}
-        for name, place in self.certifier.space.points.items():
-            found.setdefault(tuple(place), name)
-        return {name: place for place, name in found.items()}
+        return self.certifier.space.places
 
     def recognise(self, polynomial: Polynomial) -> GeometricName | None:
         """The name of a factor; None where none of the determinants of named points is it."""

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from singsym.polynomials import Polynomial, Ring
 
@@ -50,6 +51,14 @@ class ConfigurationSpace:
         """The configuration variables: the ring's names without parameters and constants."""
         fixed = {*self.parameters, *(c.name for c in self.ring.constants)}
         return tuple(name for name in self.ring.names if name not in fixed)
+
+    @cached_property
+    def places(self) -> dict[str, Coordinates]:
+        """The named points, one name for each place."""
+        found: dict[Coordinates, str] = {}
+        for name, place in self.points.items():
+            found.setdefault(tuple(place), name)
+        return {name: place for place, name in found.items()}
 
 
 @dataclass(frozen=True)

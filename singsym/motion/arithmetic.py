@@ -12,8 +12,10 @@ from typing import Any, Protocol
 
 import mpmath
 import numpy as np
+import sympy
 from numpy.typing import NDArray
 
+from singsym.mechanism.expressions import expression
 from singsym.polynomials import Polynomial, Ring
 from singsym.polynomials.compiled_map import CompiledMap
 
@@ -107,10 +109,8 @@ class Arithmetic:
 
 def _number(value: Any) -> Any:
     """A number, or text such as "1/3", in the precision of `mpmath.mp`."""
-    import sympy
-
     if isinstance(value, str | sympy.Expr):
-        return mpmath.mpf(sympy.sympify(value, rational=True).evalf(mpmath.mp.dps + 5))
+        return mpmath.mpf(expression(value, place="values").evalf(mpmath.mp.dps + 5))
     return mpmath.mpf(value)
 
 

@@ -15,8 +15,8 @@ from flint import arb, arb_mat
 
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.motion.arithmetic import Arithmetic
-from singsym.motion.certificates import BITS, Enclosure, Sheet, sure_sign
 from singsym.motion.drives import DrivenSystem
+from singsym.motion.enclosures import BITS, Enclosure, Sheet, sure_sign
 from singsym.motion.newton import Newton
 from singsym.motion.trajectory import Trajectory
 from singsym.polynomials import Polynomial

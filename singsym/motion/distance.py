@@ -20,15 +20,15 @@ from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import Mechanism
 from singsym.mechanism.problems import MechanismError, Problem
 from singsym.motion.arithmetic import Arithmetic
-from singsym.motion.certificates import (
+from singsym.motion.coordinates import Coordinates, joint_space, output_space
+from singsym.motion.drives import driven_system
+from singsym.motion.enclosures import (
     BITS,
     Sheet,
     certified_defects,
     is_surely_regular,
     point_on,
 )
-from singsym.motion.coordinates import Coordinates, joint_space, output_space
-from singsym.motion.drives import driven_system
 from singsym.motion.loci import SingularLocus, determinant_factors, singular_loci, unwritten
 from singsym.motion.newton import Newton
 from singsym.motion.numeric import NumericLinkage, numeric_equation

@@ -21,9 +21,9 @@ from singsym.kinematics.scaling import scaled_matrix
 from singsym.kinematics.velocity import VelocityEquation, velocity_equation
 from singsym.mechanism.model import Mechanism
 from singsym.mechanism.problems import MechanismError, Problem
-from singsym.motion.certificates import certified_defects, sure_sign
 from singsym.motion.continuation import Continuation, MotionPiece
 from singsym.motion.drives import driven_system
+from singsym.motion.enclosures import certified_defects, sure_sign
 from singsym.motion.loci import SingularLocus, determinant_loci
 from singsym.motion.trajectory import Trajectory
 from singsym.polynomials.compiled_map import CompiledMap, Floats

@@ -94,20 +94,12 @@ class Arm:
 
     # -- points ----------------------------------------------------------------------------------------
 
-    @cached_property
-    def _points(self) -> dict[str, Vector]:
-        """The named points, one name for each place."""
-        found: dict[Vector, str] = {}
-        for name, place in self.certifier.space.points.items():
-            found.setdefault(tuple(place), name)
-        return {name: place for place, name in found.items()}
-
     def _after(self, axis: Axis) -> list[tuple[str, Vector]]:
         """The points on axes after one, those on several first, and the point that the arm moves."""
         later = self.axes[self.axes.index(axis) + 1 :]
-        names = {name: len(self._through[name]) for name in self._points}
+        names = {name: len(self._through[name]) for name in self.certifier.space.places}
         own = [n for n in names if any(a in self._through[n] for a in later) or n == self.point]
-        return [(n, self._points[n]) for n in sorted(own, key=lambda n: -names[n])]
+        return [(n, self.certifier.space.places[n]) for n in sorted(own, key=lambda n: -names[n])]
 
     @cached_property
     def _through(self) -> dict[str, tuple[Axis, ...]]:
@@ -116,7 +108,7 @@ class Arm:
             name: tuple(
                 a for a in self.axes if not any(map(self._normal, cross(minus(place, a.at), a.along)))
             )
-            for name, place in self._points.items()
+            for name, place in self.certifier.space.places.items()
         }
 
     def _common(self, one: Axis, two: Axis) -> bool:

@@ -8,24 +8,14 @@ from functools import partial
 import pytest
 
 from singsym.effort.budget import Budget, Undecided
-from singsym.polynomials import Equations, Ring
+from singsym.polynomials import Ring
 from singsym.varieties.real.curves.real_curve import real_curve
 from singsym.varieties.real.modules.coverings import coverings
 from singsym.varieties.real.modules.curve_components import components_off
 from singsym.varieties.real.modules.module_points import points_of
 from singsym.varieties.real.modules.towers import towers
 from tests.laws.draws import SEED, draw
-
-R = Ring(("c", "s", "x", "y"))
-C, S, X, Y = R.gens
-
-
-def four_bar(crank: int, coupler: int, rocker: int, base: int) -> Equations:
-    return (
-        C**2 + S**2 - crank**2,
-        (X - C) ** 2 + (Y - S) ** 2 - coupler**2,
-        (X - base) ** 2 + Y**2 - rocker**2,
-    )
+from tests.varieties.real.modules.four_bars import RING, C, S, X, Y, four_bar
 
 
 @pytest.mark.parametrize(
@@ -60,7 +50,7 @@ def test_branches_that_are_excluded() -> None:
     parallel = (X - C - 2, Y - S)
     assert components_off(curve, (parallel,), Budget()) == 1
     assert components_off(curve, ((Y - S,),), Budget()) == 1
-    assert components_off(curve, (parallel, (R.zero,)), Budget()) == 0
+    assert components_off(curve, (parallel, (RING.zero,)), Budget()) == 0
     assert components_off(curve, ((Y,),), Budget()) == 1
 
 

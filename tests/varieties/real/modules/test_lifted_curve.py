@@ -5,20 +5,10 @@ from __future__ import annotations
 import pytest
 
 from singsym.effort.budget import Budget, Undecided
-from singsym.polynomials import Equations, Ring
+from singsym.polynomials import Ring
 from singsym.varieties.real.modules.lifted_curve import lifted_curves, points_on_tower, towers
 from singsym.varieties.real.modules.module_points import module_points
-
-R = Ring(("c", "s", "x", "y"))
-C, S, X, Y = R.gens
-
-
-def four_bar(crank: int, coupler: int, rocker: int, base: int) -> Equations:
-    return (
-        C**2 + S**2 - crank**2,
-        (X - C) ** 2 + (Y - S) ** 2 - coupler**2,
-        (X - base) ** 2 + Y**2 - rocker**2,
-    )
+from tests.varieties.real.modules.four_bars import C, S, X, Y, four_bar
 
 
 @pytest.mark.parametrize(
