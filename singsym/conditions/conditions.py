@@ -36,7 +36,9 @@ LARGEST_DETERMINANT = 7
 MOST_TERMS = 50000
 """Determinants with more terms on the way are left as determinants."""
 
-_MATRIX = {"4": "L_I", "5": "L_O", "vii": "L_I", "viii": "L_O", "iii": "L_p", "vi": "L"}
+_MATRIX = {"4": "L_I", "5": "L_O", "iii": "L_p", "vi": "L"}
+TWINS = {"vii": "4", "viii": "5"}
+"""Conditions that say of a matrix what others say of its determinant."""
 _COMPARED = {"i": ("L_O", "L_p"), "ii": ("L_I", "L_p"), "iv": ("L_I", "L"), "v": ("L_O", "L")}
 _TYPES = {
     "4": "RO or RPM, II or IIM",
@@ -114,7 +116,7 @@ class Condition:
         lines = [f"({self.label}) {self.statement}: {self.types}"]
         if self.everywhere:
             lines.append("  in every configuration")
-        elif self.alternatives is not None and not self.alternatives:
+        elif self.is_nowhere:
             lines.append("  in no configuration")
         elif self.bracket is not None:
             lines.append(f"  {self.bracket.text} = 0  ({self.bracket.words})")
@@ -134,7 +136,7 @@ class Condition:
         lines = [rf"(\mathrm{{{self.label}}})\quad & {self.latex_statement}"]
         if self.everywhere:
             lines.append(r"& \text{in every configuration}")
-        elif self.alternatives is not None and not self.alternatives:
+        elif self.is_nowhere:
             lines.append(r"& \text{in no configuration}")
         elif self.bracket is not None:
             lines.append(rf"& \iff\quad {self.bracket.latex} = 0")
@@ -230,6 +232,8 @@ class Conditions:
                 rf"\operatorname{{rank}} {lower} < \operatorname{{rank}} {upper}{tail}",
                 comparison=Comparison(lower, upper, offset),
             )
+        if label in TWINS:
+            return self._as_rank(label)
         name = _MATRIX[label]
         if label in ("iii", "vi"):
             required = N - n if label == "iii" else N
@@ -240,9 +244,7 @@ class Conditions:
                 f"rank {name} < {required}",
                 rf"\operatorname{{rank}} {name} < {required}",
             )
-        plain, latex = f"{name} is singular", rf"{name} \text{{ is singular}}"
-        if label in ("4", "5"):
-            plain, latex = f"det {name} = 0", rf"\det {name}(q) = 0"
+        plain, latex = f"det {name} = 0", rf"\det {name}(q) = 0"
         height, width = getattr(self.equation, name).shape
         if height != width:
             latex = rf"\operatorname{{rank}} {name} < {N}"
@@ -267,6 +269,14 @@ class Conditions:
             found.units,
         )
 
+    def _as_rank(self, label: str) -> Condition:
+        """(vii) and (viii): what (4) and (5) say, of the matrix."""
+        found, name = self[TWINS[label]], _MATRIX[TWINS[label]]
+        if found.statement.startswith("det "):
+            singular, latex = f"{name} is singular", rf"{name} \text{{ is singular}}"
+            found = replace(found, statement=singular, latex_statement=latex)
+        return replace(found, label=label, types=_TYPES[label])
+
     def factor(self, polynomial: Polynomial, multiplicity: int = 1) -> Factor:
         """A polynomial as a factor of the mechanism's, with its name."""
         if not self.naming:
@@ -274,8 +284,8 @@ class Conditions:
         return Factor.named(polynomial, multiplicity, self.names)
 
     def _equilibrium(self, label: str) -> Equilibrium | None:
-        """The screws of (4), (vi) and (vii)."""
-        return equilibrium(self.equation, label == "vi") if label in ("4", "vi", "vii") else None
+        """The screws of (4) and (vi)."""
+        return equilibrium(self.equation, label == "vi") if label in ("4", "vi") else None
 
     def _determinant(self, name: str) -> FactoredDeterminant | None:
         """The determinant, in the smallest of the forms that the full and reduced matrix and the legs give.

@@ -8,6 +8,8 @@ they pass it, is reciprocal to its own.  For y L_I = 0, condition (4), only pass
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -26,7 +28,7 @@ _IDLE = "no idle spin at "
 class Equilibrium:
     """Joints in the same loops make a leg; L, or L_I, drops in rank where screws can be chosen as said.
 
-    joints: the names of those of each leg whose columns the matrix has.
+    joints: the names of those of each leg whose columns the matrix has, or of the columns of a part of one.
     carried: for each leg the signs with which free screws make up the one that is reciprocal to its joints.
     free: places of the legs that bear one free screw each.
     idle: spherical joints whose spin about their strut is left out.
@@ -51,7 +53,7 @@ class Equilibrium:
         names = [" ".join(joints) for joints in self.joints]
         rest = [k for k in range(len(names)) if k not in self.free]
         own = [names[k] for k in self.free]
-        if not rest:
+        if len(names) == 1:
             said = f"a screw other than 0 is reciprocal to {own[0]}"
         elif len(own) == 2 and len(rest) == 1:
             both = f"screws reciprocal to {own[0]} and to {own[1]}, not both 0,"
@@ -71,20 +73,23 @@ def equilibrium(equation: VelocityEquation, inputs: bool = True) -> Equilibrium 
 
     inputs: whether the columns of the inputs count, as in L and not in L_I.
     """
-    blocks = _loops(equation)
+    blocks = equation.loop_rows
     idle = tuple(row.removeprefix(_IDLE) for row in equation.rows if row.startswith(_IDLE))
     others = sum(not row.startswith(("output ", "loop ", _IDLE)) for row in equation.rows)
     if not blocks or others or not _output_is_apart(equation):
         return None
-    patterns: dict[Signs, dict[str, None]] = {}
+    patterns: dict[Signs, dict[str, list[str]]] = {}
+    whole = Counter[str]()
     for j, column in enumerate(equation.columns):
-        if column.role == "output" or (column.role == "input" and not inputs):
+        if column.role == "output":
             continue
         signs = _signs([[equation.matrix.rows[i][j] for i in rows] for rows in blocks])
-        if signs is None:
+        if signs is None and (inputs or column.role != "input"):
             return None
-        if any(signs):
-            patterns.setdefault(signs, {})[column.label.split(".")[0]] = None
+        joint = column.label.split(".")[0]
+        whole[joint] += signs is None or any(signs)
+        if signs is not None and any(signs) and (inputs or column.role != "input"):
+            patterns.setdefault(signs, {}).setdefault(joint, []).append(column.label)
     kinds = sorted(patterns, key=lambda s: sum(map(bool, s)))
     free: list[Signs] = []
     for signs in kinds:
@@ -94,21 +99,19 @@ def equilibrium(equation: VelocityEquation, inputs: bool = True) -> Equilibrium 
     if carried is None or len(free) < len(blocks):
         return None
     return Equilibrium(
-        tuple(tuple(joints) for joints in patterns.values()),
+        tuple(
+            tuple(
+                name
+                for joint, labels in joints.items()
+                for name in ([joint] if len(labels) == whole[joint] else labels)
+            )
+            for joints in patterns.values()
+        ),
         carried,
         tuple(list(patterns).index(signs) for signs in free),
         idle,
         len(equation.rows) - equation.N,
     )
-
-
-def _loops(equation: VelocityEquation) -> list[list[int]]:
-    """The rows of each loop."""
-    found: dict[str, list[int]] = {}
-    for i, row in enumerate(equation.rows):
-        if row.startswith("loop "):
-            found.setdefault(row.rpartition(" ")[0], []).append(i)
-    return list(found.values())
 
 
 def _output_is_apart(equation: VelocityEquation) -> bool:
@@ -123,7 +126,7 @@ def _output_is_apart(equation: VelocityEquation) -> bool:
     )
 
 
-def _signs(screws: list[list[Polynomial]]) -> Signs | None:
+def _signs(screws: Sequence[Sequence[Polynomial]]) -> Signs | None:
     """How the loops pass a joint, up to a common sign; None where they do not have the same screw of it."""
     own = next((screw for screw in screws if any(screw)), None)
     if own is None:

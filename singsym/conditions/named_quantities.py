@@ -16,10 +16,10 @@ from math import prod
 import sympy
 from flint import fmpq
 
-from singsym.conditions.incidences.grassmann_cayley import Vector, cross, dot, minus
+from singsym.conditions.incidences.grassmann_cayley import Vector, cross, determinant, dot, minus
 from singsym.conditions.incidences.incidences import Incidences
 from singsym.conditions.incidences.joint_values import JointRoots, joint_roots
-from singsym.conditions.incidences.quantities import Quantity, symbol
+from singsym.conditions.incidences.quantities import Quantity, arrow, symbol
 from singsym.kinematics.nonzero import Certifier
 from singsym.polynomials import Polynomial
 
@@ -78,7 +78,7 @@ class PointNames:
         own = self.certifier.normal_form(polynomial)
         wanted = own.primitive()
         square = self.certifier.normal_form(wanted * wanted).primitive()
-        for lengths, values in (self._suggested, self._own):
+        for lengths, values in self._kinds():
             for key, value, quantity in lengths:
                 if key == square and (name := self._as_length(quantity, value, own)) is not None:
                     return name
@@ -92,10 +92,15 @@ class PointNames:
                         return GeometricName(quantity, scale)
         return None
 
+    def _kinds(self) -> Iterator[tuple[_Candidates, _Candidates]]:
+        """What the architecture suggests, and then, where that is not enough, all determinants of points."""
+        yield self._suggested
+        yield self._own
+
     def called(self, polynomial: Polynomial, quantity: Quantity) -> GeometricName | None:
         """How many times a polynomial a quantity is; None where it is no multiple, or not known here."""
         own = self.certifier.normal_form(polynomial)
-        for lengths, values in (self._suggested, self._own):
+        for lengths, values in self._kinds():
             for _, value, known in lengths:
                 if known.text == quantity.text:
                     return self._as_length(quantity, value, own)
@@ -161,14 +166,14 @@ class PointNames:
             a, b = (minus(other, first) for other in others)
             if sum(len(e) for e in (*a, *b)) < 24:
                 p, q, r = triple
-                latex = r" \times ".join(rf"\overrightarrow{{{symbol(p)}{symbol(x)}}}" for x in (q, r))
+                latex = r" \times ".join(arrow(p, x) for x in (q, r))
                 words = f"{', '.join(sorted(triple))} collinear"
                 yield cross(a, b), Quantity(rf"\pm|{latex}|", f"±|{p}{q} x {p}{r}|", words)
         for base, other in islice(combinations(names, 2), MANY // 10):
             arm = minus(self._points[other], self._points[base])
             for u, axis in axes.items():
                 if sum(len(e) for e in (*arm, *axis)) < 24:
-                    latex = rf"\overrightarrow{{{symbol(base)}{symbol(other)}}} \times {symbol(u)}"
+                    latex = rf"{arrow(base, other)} \times {symbol(u)}"
                     words = f"{other} on the axis {u} through {base}"
                     yield (
                         cross(arm, axis),
@@ -186,7 +191,7 @@ class PointNames:
             for u in axes:
                 if (count := count + 1) > MANY:
                     return
-                latex = rf"\overrightarrow{{{symbol(p)}{symbol(q)}}} \cdot {symbol(u)}"
+                latex = rf"{arrow(p, q)} \cdot {symbol(u)}"
                 words = f"{p}{q} perpendicular to axis {u}"
                 yield dot(difference, axes[u]), Quantity(latex, f"{p}{q}.{u}", words)
         for triple in islice(combinations(axes, 3), MANY // 10):
@@ -194,14 +199,14 @@ class PointNames:
             if sum(len(e) for e in (*one, *two, *three)) < 24:
                 latex = rf"\det[{', '.join(map(symbol, triple))}]"
                 words = f"axes {', '.join(triple[:2])} and {triple[2]} parallel to a plane"
-                yield dot(one, cross(two, three)), Quantity(latex, f"det[{' '.join(triple)}]", words)
+                yield determinant((one, two, three)), Quantity(latex, f"det[{' '.join(triple)}]", words)
         for names in combinations(sorted(self._points), 4):
             if (count := count + 1) > MANY:
                 return
             first, *others = (self._points[name] for name in names)
             a, b, c = (minus(other, first) for other in others)
             if sum(len(e) for e in (*a, *b, *c)) < 60:
-                yield dot(a, cross(b, c)), _determinant(names, "coplanar")
+                yield determinant((a, b, c)), _determinant(names, "coplanar")
 
 
 def _determinant(names: tuple[str, ...], relation: str) -> Quantity:

@@ -71,8 +71,8 @@ def scaled_matrix(equation: VelocityEquation, point: Sequence[Any] | Floats) -> 
         whole = _ones_for_zeros(np.linalg.norm(matrix.astype(np.float64), 2, axis=(-2, -1)))
         pure = matrix / np.asarray(whole)[..., None, None]
         return Scaled(equation, pure, np.ones((*many, width)), _number(_ones_for_zeros(_spread(places))))
-    slides = [_is_slide(equation, j) for j in range(width)]
     blocks = _loops(equation)
+    slides = [_is_slide(equation, j, blocks) for j in range(width)]
     for angular, linear in blocks:
         if angular and linear and places.size:
             _move(matrix, angular, linear, np.mean(places, axis=-2))
@@ -125,20 +125,20 @@ def _places(equation: VelocityEquation, point: Sequence[Any] | Floats) -> Floats
 
 def _loops(equation: VelocityEquation) -> list[tuple[list[int], list[int]]]:
     """For each loop its angular and its linear rows."""
-    found: dict[str, tuple[list[int], list[int]]] = {}
-    for i, name in enumerate(equation.rows):
-        if name.startswith("loop "):
-            loop, _, axis = name.rpartition(" ")
-            found.setdefault(loop, ([], []))[axis in _LINEAR].append(i)
-    return list(found.values())
+    found: list[tuple[list[int], list[int]]] = []
+    for rows in equation.loop_rows:
+        found.append(([], []))
+        for i in rows:
+            found[-1][equation.rows[i].rpartition(" ")[2] in _LINEAR].append(i)
+    return found
 
 
-def _is_slide(equation: VelocityEquation, j: int) -> bool:
+def _is_slide(equation: VelocityEquation, j: int, blocks: Sequence[tuple[list[int], list[int]]]) -> bool:
     """Whether a joint's rate is a length: by its value, or because it turns nothing in a loop."""
     value = equation.values.get(equation.columns[j].label)
     if value is not None and (value.length is not None or value.square is not None):
         return True
-    for angular, linear in _loops(equation):
+    for angular, linear in blocks:
         if any(equation.matrix[i, j] for i in linear):
             return not any(equation.matrix[i, j] for i in angular)
     return False

@@ -88,6 +88,15 @@ class VelocityEquation:
         return self._without("input", "output")
 
     @cached_property
+    def loop_rows(self) -> tuple[tuple[int, ...], ...]:
+        """The places of the rows of each loop."""
+        found: dict[str, list[int]] = {}
+        for i, row in enumerate(self.rows):
+            if row.startswith("loop "):
+                found.setdefault(row.rpartition(" ")[0], []).append(i)
+        return tuple(map(tuple, found.values()))
+
+    @cached_property
     def compiled(self) -> CompiledMap:
         """The entries of L, row by row, as a map in doubles."""
         from singsym.polynomials.compiled_map import CompiledMap

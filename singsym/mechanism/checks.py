@@ -225,7 +225,8 @@ def _bounds(mechanism: Mechanism) -> Iterator[tuple[str, tuple[sympy.Expr | None
         yield f"exclusions.{exclusion.words}", (exclusion.expression,)
     for coupling in mechanism.couplings:
         if coupling.lift is not None or is_sliding(mechanism, coupling):
-            yield f"couplings.{coupling.name}", (coupling.constant, coupling.lift)
+            yield f"couplings.{coupling.name}.constant", (coupling.constant,)
+            yield f"couplings.{coupling.name}.lift", (coupling.lift,)
 
 
 def _quantities(value: sympy.Expr) -> set[sympy.Symbol]:

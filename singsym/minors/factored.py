@@ -31,8 +31,12 @@ class Unit:
     multiplicity: int
     reason: str
 
+    def text(self, longest: int | None = 8) -> str:
+        """The factor and its reason; longest: terms before the polynomial is cut, None for no cut."""
+        return f"{self.polynomial.short_text(longest)}: {self.reason}"
+
     def __str__(self) -> str:
-        return f"{self.polynomial.short_text()}: {self.reason}"
+        return self.text()
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
-from singsym.conditions.conditions import Condition
+from singsym.conditions.conditions import TWINS, Condition
 from singsym.conditions.factor import Factor
 from singsym.polynomials import Polynomial
 
@@ -23,7 +23,6 @@ FEW = 2
 MOST_ALTERNATIVES, MOST_NAMES = 6, 3
 """More alternatives, or more names in those of (vi), are counted unless all is asked for."""
 
-_TWINS = {"vii": "4", "viii": "5"}
 _NEARLY = {"i": ("5", "iii"), "ii": ("4", "iii"), "iv": ("4", "vi"), "v": ("5", "vi")}
 
 
@@ -46,6 +45,14 @@ class Entry:
     left_out: int = 0
     alternatives: tuple[tuple[tuple[Factor, bool], ...], ...] = ()
     below: tuple[Factor, ...] = ()
+
+    @property
+    def more(self) -> str:
+        """How many alternatives are left out."""
+        number, plural = self.left_out, "" if self.left_out == 1 else "s"
+        if self.alternatives:
+            return f"{number} more way{plural}, of several factors each"
+        return f"written out: {number} set{plural} of factors that vanish together"
 
 
 @dataclass(frozen=True)
@@ -81,19 +88,17 @@ def cited(conditions: Iterable[Condition], expand: bool = True) -> Citations:
     """
     whole = {condition.label: condition for condition in conditions}
     entries: list[Entry] = []
-    before: dict[str, Condition] = {}
     printed: dict[Polynomial, None] = {}
     named: set[Polynomial] = set()
     for label, full_condition in whole.items():
-        twin = _TWINS.get(label, "")
-        if twin in before and _content(whole[twin]) == _content(full_condition):
+        twin = TWINS.get(label, "")
+        if twin in whole and _content(whole[twin]) == _content(full_condition):
             entries.append(Entry(full_condition, twin))
             continue
         if label in _NEARLY and (entry := _comparison(full_condition, whole)):
             entries.append(entry)
             continue
         condition = full_condition if expand else _shortened(full_condition)
-        before[label] = condition
         alternatives, below = [], []
         for alternative in condition.alternatives or ():
             shown = []

@@ -33,8 +33,7 @@ def listed_latex(
     listed = tuple(conditions)
     written = lengths or NamedLengths()
     found = cited(listed, expand)
-    longest = sys.maxsize if expand else LONGEST
-    parts = [_entry(entry, found, written, longest) for entry in found.entries]
+    parts = [_entry(entry, found, written, expand) for entry in found.entries]
     if values := written.occurring_in_factors(f for c in listed for f in c.all_factors):
         parts.append(values_latex(values))
     return "\n\n".join(parts)
@@ -46,15 +45,15 @@ def values_latex(values: Mapping[str, Fraction]) -> str:
     return f"Here {', '.join(said)}."
 
 
-def _entry(entry: Entry, found: Citations, written: NamedLengths, longest: int) -> str:
+def _entry(entry: Entry, found: Citations, written: NamedLengths, expand: bool) -> str:
     """One condition with its factors, each with its name and in words where it has them."""
-    condition = entry.condition
+    condition, longest = entry.condition, sys.maxsize if expand else LONGEST
     head = rf"\textbf{{({condition.label})}}\enspace ${condition.latex_statement}$ \quad ({condition.types})"
     if entry.same_as:
         off = rf" where ({entry.off}) does not hold; where it does, the ranks decide" if entry.off else ""
         return f"{head}, as ({entry.same_as}){off}."
     if entry.nowhere:
-        return f"{head}, in no configuration.{_units(condition, longest)}"
+        return f"{head}, in no configuration.{_units(condition, expand)}"
     if condition.everywhere:
         return f"{head}, in every configuration."
     if condition.bracket is not None:
@@ -70,20 +69,22 @@ def _entry(entry: Entry, found: Citations, written: NamedLengths, longest: int) 
         lead = "or" if place else "i.e." if condition.equilibrium else "if"
         items.append(rf"\item[{lead}] {said[0]}")
     if entry.left_out:
-        what = "further ways" if entry.alternatives else "sets of factors that vanish together, written out"
-        items.append(rf"\item[or] by {entry.left_out} {what}")
+        items.append(rf"\item[{'or' if entry.alternatives else 'i.e.'}] {entry.more}")
     items += [rf"\item[where] ${_full(f, found, written, longest)}${_words(f, written)}" for f in entry.below]
     if not items:
         return f"{head}."
     listed = "\n".join(items)
-    return f"{head}\n\\begin{{itemize}}\n{listed}\n\\end{{itemize}}{_units(condition, longest)}"
+    return f"{head}\n\\begin{{itemize}}\n{listed}\n\\end{{itemize}}{_units(condition, expand)}"
 
 
-def _units(condition: Condition, longest: int) -> str:
+def _units(condition: Condition, expand: bool) -> str:
     """The factors that were taken away; a few, unless all is asked for."""
-    if longest == LONGEST and len(condition.units) > FEW:
+    if not expand and len(condition.units) > FEW:
         return f"\n{len(condition.units)} factors that vanish nowhere in the feasible set are left out."
-    said = [f"${polynomial_latex(u.polynomial, 6)}$ ({escaped(u.reason)})" for u in condition.units]
+    said = [
+        f"${polynomial_latex(u.polynomial, sys.maxsize if expand else 6)}$ ({escaped(u.reason)})"
+        for u in condition.units
+    ]
     return f"\nFactors without a feasible zero are left out: {'; '.join(said)}." if said else ""
 
 

@@ -62,13 +62,18 @@ def reduction_lines(reduction: Reduction) -> list[str]:
 def joined_columns(columns: Iterable[str]) -> str:
     """Columns in their order, those of one joint together.
 
-    >>> joined_columns(("A.x", "A.y", "B"))
-    'A.xy, B'
+    >>> joined_columns(("A.x", "A.y", "B", "C.angle", "C.slide"))
+    'A.xy, B, C.angle, C.slide'
     """
     joints: dict[str, list[str]] = {}
     for joint, _, part in (column.partition(".") for column in columns):
         joints.setdefault(joint, []).append(part)
-    return ", ".join(f"{joint}.{''.join(parts)}" if any(parts) else joint for joint, parts in joints.items())
+    said = []
+    for joint, parts in joints.items():
+        letters = all(len(part) <= 1 for part in parts)
+        own = ["".join(parts)] if letters else parts
+        said += [f"{joint}.{part}" if part else joint for part in own]
+    return ", ".join(said)
 
 
 def conditions_text(
@@ -112,21 +117,15 @@ def _entry(entry: Entry, found: Citations, written: NamedLengths, expand: bool) 
         said = said or [_cited([f for f, _ in alternative], found, written)]
         lines.append(f"  {'or' if place else 'if'} {said[0]}")
     if entry.left_out:
-        lines.append(f"  {_more(entry)}")
+        lines.append(f"  {'or ' if entry.alternatives else ''}{entry.more}")
     below = [f for f in entry.below if expand or not f.words]
     lines += [f"  where {_full(f, found, written, expand)}{_words(f, written)}" for f in below]
     if expand or len(condition.units) <= FEW:
-        return lines + [f"  without the factor {unit}" for unit in condition.units]
+        return lines + [
+            f"  without the factor {unit.text(None if expand else MOST)}" for unit in condition.units
+        ]
     left_out = f"{len(condition.units)} factors that vanish nowhere in the feasible set"
     return [*lines, f"  without {left_out}: --expand prints them"]
-
-
-def _more(entry: Entry) -> str:
-    """How many alternatives are not printed."""
-    number = entry.left_out
-    if entry.alternatives:
-        return f"or {number} more way{'' if number == 1 else 's'}, of several factors each"
-    return f"written out: {number} set{'' if number == 1 else 's'} of factors that vanish together"
 
 
 def _full(factor: Factor, found: Citations, written: NamedLengths, expand: bool) -> str:
@@ -147,6 +146,6 @@ def _words(factor: Factor, written: NamedLengths) -> str:
 def _cited(factors: list[Factor], found: Citations, written: NamedLengths) -> str:
     """Factors that vanish together, by their words, by short polynomials and by names."""
     said = [f.words for f in factors if f.words]
-    equal = [f"{written.factor(f).polynomial}" for f in factors if is_short(f)]
+    equal = [f"{written.factor(f).polynomial.short_text(None)}" for f in factors if is_short(f)]
     equal += [f"f{number}" for number in found.numbers_of(factors)]
     return " and ".join([*said, *([" = ".join([*equal, "0"])] if equal else [])])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import random
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -158,3 +159,17 @@ def test_words_name_each_joint_and_each_free_screw_once() -> None:
     assert all(re.fullmatch(r"w\d( [+-] w\d)+", screw) for screw in screws[len(found.free) :])
     joints = [joint for part in listed for joint in part.partition(" to ")[2].split()]
     assert sorted(joints) == sorted(c.label for c in equation.columns if c.role != "output")
+
+
+def test_loops_without_a_common_joint_bear_a_screw_each() -> None:
+    """Two linkages side by side: L drops in rank where it does for one of them, so both are named."""
+    found = equilibrium(velocity_equation(load("pair-10")))
+    assert found is not None
+    assert "w1 to A1 B1 C1 D1; w2 to A2 B2 C2 D2" in found.words
+
+
+def test_of_a_joint_that_drives_in_part_only_the_passive_column_asks() -> None:
+    """Four cylindric joints, the slide of one driven: for L_I its angle alone is among the joints."""
+    found = equilibrium(velocity_equation(replace(load("rccc"), inputs=("B.slide",))), inputs=False)
+    assert found is not None
+    assert found.words == "a screw other than 0 is reciprocal to A B.angle C D"

@@ -13,7 +13,8 @@ from functools import cached_property
 from itertools import combinations
 
 from singsym.conditions.incidences.grassmann_cayley import Vector, cross, determinant, dot, minus
-from singsym.conditions.incidences.quantities import Quantity, arrow, bracket, listed, symbol
+from singsym.conditions.incidences.quantities import Quantity, arrow, bracket, symbol
+from singsym.kinematics.modules.words import listed
 from singsym.kinematics.nonzero import Certifier
 from singsym.kinematics.placement import PlacedJoint
 from singsym.kinematics.velocity import VelocityEquation
@@ -148,12 +149,14 @@ def arm(equation: VelocityEquation, certifier: Certifier) -> Arm | None:
     architecture = equation.architecture
     if architecture is None or len(equation.columns) != len(equation.rows) + len(architecture.joints):
         return None
+    if any(column.role == "passive" for column in equation.columns):
+        return None
     axes = []
     for joint in architecture.joints:
         if len(joint.screws) == 1 and not any(joint.screws[0][:3]):
             continue
         axis = _axis(joint, certifier)
-        if axis is None or any(column.role == "passive" for column in equation.columns):
+        if axis is None:
             return None
         axes.append(axis)
     if not axes:

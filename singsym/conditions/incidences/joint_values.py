@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 import sympy
 
+from singsym.kinematics.modules.words import listed
 from singsym.kinematics.placement import JointValue
 from singsym.polynomials import Polynomial
 
@@ -40,10 +41,7 @@ class JointRoots:
         'J5 = 0 or 180 deg'
         """
         unit = f" {self.unit}" if self.unit else ""
-        values = " or ".join(
-            [", ".join(self.values[:-1]), self.values[-1]] if self.values[1:] else self.values
-        )
-        said = f"{self.joint} {'≈' if self.rounded else '='} {values}{unit}"
+        said = f"{self.joint} {'≈' if self.rounded else '='} {listed(self.values, 'or')}{unit}"
         return f"{self.exact}, {said}" if self.exact else said
 
     def written_as(self, polynomial: Polynomial) -> JointRoots:

@@ -15,14 +15,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from math import prod
 
 from singsym.conditions.incidences.grassmann_cayley import Vector, determinant, dot, plane
 from singsym.conditions.incidences.legs import legs
-from singsym.conditions.incidences.quantities import Quantity, arrow, bracket, listed, symbol
+from singsym.conditions.incidences.quantities import Quantity, arrow, bracket, symbol
 from singsym.conditions.incidences.wrenches import Line, Support, support
+from singsym.kinematics.modules.words import listed
 from singsym.kinematics.nonzero import Certifier
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.minors.determinant import TooManyTerms, block_determinants
+from singsym.minors.determinant import determinant as matrix_determinant
 from singsym.polynomials import Polynomial, PolynomialMatrix
 
 MOST_TERMS = 5000
@@ -76,7 +79,11 @@ class Platform:
     def stays_unexpanded(self) -> bool:
         """Whether det L_I vanishes exactly where the bracket does, which has too many terms."""
         scales = (own.scale for own in self.supports)
-        return self._parts is None and all(self.certifier.reason(scale) is not None for scale in scales)
+        return (
+            self._parts is None
+            and not self._free[1]
+            and all(self.certifier.reason(scale) is not None for scale in scales)
+        )
 
     def values(self) -> Iterator[tuple[Polynomial, Quantity]]:
         """Quantities of the lines that determinants have as factors, with their polynomials."""
@@ -90,9 +97,7 @@ class Platform:
         if self._parts is None:
             return
         lines, single = self._free
-        value = self.certifier.space.ring.one
-        for part in self._parts:
-            value = value * part
+        value = prod(self._parts, start=self.certifier.space.ring.one)
         for meet, quantity in self._planes():
             if not all(self.certifier.normal_form(meet - value * sign) for sign in (1, -1)):
                 yield meet, quantity
@@ -114,9 +119,7 @@ class Platform:
 
     def _renamed(self, line: Line) -> Line:
         """A line whose points bear the first of the names of their places."""
-        first: dict[Vector, str] = {}
-        for name, place in self._points.items():
-            first.setdefault(place, name)
+        first = {place: name for name, place in self.certifier.space.places.items()}
         p, q = (
             first[self._points[n]] if n in self._points and line.kind == "line" else n for n in line.names
         )
@@ -143,10 +146,7 @@ class Platform:
     def _meet(self, planes: Sequence[Sequence[str]]) -> tuple[Polynomial, Quantity]:
         """The meet of four planes, each by three of its points."""
         rows = [plane(*(self._points[name] for name in names)) for names in planes]
-        parts = block_determinants(PolynomialMatrix.of(self.certifier.space.ring, rows))
-        value = self.certifier.space.ring.one
-        for part in parts:
-            value = value * part
+        value = matrix_determinant(PolynomialMatrix.of(self.certifier.space.ring, rows))
         text = ["".join(names) for names in planes]
         latex = ["".join(map(symbol, names)) for names in planes]
         return value, bracket(latex, text, f"planes {listed(text)} through a point or parallel to a line")

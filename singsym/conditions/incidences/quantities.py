@@ -49,12 +49,3 @@ def bracket(latex: Sequence[str], text: Sequence[str], words: str) -> Quantity:
     """The determinant of some vectors, each in LaTeX and as text."""
     inside = r",\, ".join(latex)
     return Quantity(rf"\det[{inside}]", f"det[{' '.join(text)}]", words)
-
-
-def listed(names: Sequence[str]) -> str:
-    """Names as one reads them.
-
-    >>> listed(["A", "B", "C"])
-    'A, B and C'
-    """
-    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 
-from singsym.conditions.incidences.grassmann_cayley import Vector, dot, minus
+from singsym.conditions.incidences.grassmann_cayley import dot, minus
 from singsym.conditions.incidences.quantities import Quantity, arrow, bracket, symbol
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.polynomials import Polynomial
@@ -23,14 +23,11 @@ def beside_slides(equation: VelocityEquation) -> Iterator[tuple[Polynomial, Quan
     >>> next((str(p), q.words) for p, q in found if q.text == "BC.u_P")
     ('-Bx + d_P', 'BC perpendicular to slide P')
     """
-    points: dict[Vector, str] = {}
-    for name, place in equation.space.points.items():
-        points.setdefault(tuple(place), name)
-    if equation.architecture is None or any(len(place) != 2 for place in points):
+    named = sorted(equation.space.places.items())
+    if equation.architecture is None or any(len(place) != 2 for _, place in named):
         return
     joints = equation.architecture.joints
     slides = [joint for joint in joints if len(joint.screws) == 1 and not joint.screws[0][0]]
-    named = sorted((name, place) for place, name in points.items())
     found = [(slide, *pair) for slide in slides for pair in combinations(named, 2)]
     # points of the slide's own leg before others
     found.sort(key=lambda own: not {own[1][0], own[2][0]} & {*own[0].points})

@@ -86,10 +86,10 @@ def _assur_group(part: Part) -> str:
     return f"Assur group of {count} links {start}, {part.unknowns} unknowns"
 
 
-def listed(names: Sequence[str]) -> str:
+def listed(names: Sequence[str], word: str = "and") -> str:
     """Names in a sentence.
 
     >>> listed(["A", "B", "C"])
     'A, B and C'
     """
-    return " and ".join(filter(None, (", ".join(names[:-1]), *names[-1:])))
+    return f" {word} ".join(filter(None, (", ".join(names[:-1]), *names[-1:])))

@@ -172,7 +172,7 @@ class _Names:
             base = rf"\ell_{{{self._count('ell') + 1}}}"
         elif value.shape[0] == 1:
             base = f"d_{{{subscript}}}"
-        elif set(components) <= {"x", "y", "z"} or not any(c.startswith("w") for c in components):
+        elif not any(c.startswith("w") for c in components):
             at = self.point.replace("_", r"\_") if group == "output" else ""
             comma = "," if at and len(subscript) > 1 else ""
             base = f"m_{{{subscript}{comma}{at}}}"

@@ -132,7 +132,8 @@ def reduced_latex(
 
     def recognise(entry: Polynomial) -> str:
         name = found.names.recognise(entry)
-        if name is None or name.radicand != 1 or not name.scale.is_constant:
+        known_to_a_sign = name is not None and name.quantity.text.startswith("±")
+        if name is None or known_to_a_sign or name.radicand != 1 or not name.scale.is_constant:
             return ""
         return f"{factor_latex(1 / name.scale.constant)}{name.quantity.latex}"
 
