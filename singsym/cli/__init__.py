@@ -6,7 +6,6 @@ input, 74 results that cannot be written (EX_IOERR of sysexits.h), 130 interrupt
 
 from __future__ import annotations
 
-import io
 import os
 import signal
 import sys
@@ -37,14 +36,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if _opened():
         say("singsym: standard output is closed, there is nowhere to print to")
         return NOT_WRITTEN
-    chosen = parser().parse_args(arguments)
+    top = parser()
+    chosen = top.parse_args(arguments)
     chosen.started = started
     if chosen.run is None:
-        parser().print_help()
+        top.print_help()
         return USAGE
-    if isinstance(sys.stdout, io.TextIOWrapper):
-        # a terminal that lacks ± or ≈ shows a question mark
-        sys.stdout.reconfigure(errors="replace")
     ended = _Ended()
     try:
         with ended.in_order():
@@ -54,30 +51,28 @@ def main(arguments: Sequence[str] | None = None) -> int:
         say(f"singsym {chosen.command}: {error}")
         return USAGE
     except BrokenPipeError:
-        _forget(sys.stdout)
         return BROKEN_PIPE
     except OSError as error:
-        _forget(sys.stdout)
         place = error.filename or "standard output"
         say(f"singsym {chosen.command}: {place} cannot be used: {error.strerror or error}")
         return NOT_WRITTEN
     except KeyboardInterrupt as interrupt:
         during = f" during {interrupt}" if str(interrupt) else ""
         say(f"singsym {chosen.command}: interrupted{during}{chosen.on_interrupt}")
-        sys.stdout.flush()
         return ended.code
     finally:
-        try:
-            sys.stderr.flush()
-        except OSError:
-            _forget(sys.stderr)
+        for stream in (sys.stdout, sys.stderr):
+            try:
+                stream.flush()
+            except OSError:
+                _forget(stream)
     return code
 
 
 def _opened() -> bool:
     """Open streams that are closed on nothing, so that no file gets their numbers; whether stdout was.
 
-    Signs that their encoding has not are written as escapes.
+    Signs that their encoding has not, as ± or ≈, are question marks, and escapes in messages.
     """
     closed = sys.stdout is None
     for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
@@ -85,7 +80,7 @@ def _opened() -> bool:
         if stream is None:
             setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_RDWR), mode, encoding="utf-8"))
         elif mode == "w" and isinstance(stream, TextIOWrapper):
-            stream.reconfigure(errors="backslashreplace")
+            stream.reconfigure(errors="replace" if name == "stdout" else "backslashreplace")
     return closed
 
 

@@ -10,7 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from singsym.cli.screen import UserError, emit_data, emit_page, say
+from singsym.cli.screen import UserError, emit_data, emit_latex, emit_page, say
 from singsym.mechanism import Choice, Mechanism, MechanismError, check, load
 from singsym.mechanism.problems import Problem
 
@@ -129,11 +129,10 @@ def run_show(chosen: argparse.Namespace) -> int:
             found |= {"robot": robot_data(robot)}
         emit_data(found)
     elif chosen.format == "latex":
-        from singsym.output.document import document, fragment
         from singsym.output.latex import mechanism_latex
 
         body = mechanism_latex(mechanism, equation)
-        print(document(body, mechanism.title or mechanism.name) if chosen.standalone else fragment(body))
+        emit_latex(body, mechanism.title or mechanism.name, chosen.standalone)
     else:
         from singsym.kinematics.modules import driven_modules
         from singsym.output.module_graph import modules_page

@@ -6,10 +6,11 @@ Source: singsym's own.
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from singsym.cli.mechanisms import complaint, placed, read
-from singsym.cli.screen import UserError, emit_data, emit_page, progress_shown, say
+from singsym.cli.screen import UserError, emit_data, emit_page, progress_shown, say, writable
 from singsym.cli.singularities import UNDECIDED
 from singsym.mechanism import Mechanism, MechanismError
 
@@ -33,6 +34,8 @@ def run_follow(chosen: argparse.Namespace) -> int:
     """`singsym follow MECHANISM FILE`; exit code 3 where the motion is not proven throughout."""
     mechanism = read(chosen)
     placed(mechanism, chosen.formulation)
+    if chosen.output:
+        writable(Path(chosen.output))
     try:
         found = _followed(mechanism, chosen)
         if chosen.output:

@@ -59,8 +59,8 @@ def parser() -> argparse.ArgumentParser:
         formatter_class=lambda prog: argparse.RawDescriptionHelpFormatter(prog, max_help_position=16),
         usage="singsym COMMAND ...",
     )
-    top.add_argument("--version", action="version", version=f"singsym {_version()}")
-    top.set_defaults(run=None, command="", on_interrupt="")
+    top.add_argument("--version", action=_Version, nargs=0, help="show program's version number and exit")
+    top.set_defaults(run=None, on_interrupt="")
     commands = top.add_subparsers(
         title="commands", metavar="", dest="command", prog="singsym", parser_class=argparse.ArgumentParser
     )
@@ -69,7 +69,7 @@ def parser() -> argparse.ArgumentParser:
         name: str, module: str, words: str, *parts: Callable[[argparse.ArgumentParser], None]
     ) -> argparse.ArgumentParser:
         command = commands.add_parser(name, help=words, description=f"{words[0].upper()}{words[1:]}.")
-        command.set_defaults(run=_lazily(module, f"run_{name}"), on_interrupt="")
+        command.set_defaults(run=_lazily(module, f"run_{name}"))
         for part in parts:
             part(command)
         options.talk(command, works=options.work in parts)
@@ -159,10 +159,15 @@ def commands() -> list[tuple[str, list[str], bool]]:
     return found
 
 
-def _version() -> str:
-    from importlib.metadata import PackageNotFoundError, version
+class _Version(argparse.Action):
+    """Says the version, which is looked up only then."""
 
-    try:
-        return version("singsym")
-    except PackageNotFoundError:
-        return "(not installed)"
+    def __call__(self, parser: argparse.ArgumentParser, *ignored: object) -> None:
+        from importlib.metadata import PackageNotFoundError, version
+
+        try:
+            found = version("singsym")
+        except PackageNotFoundError:
+            found = "(not installed)"
+        print(f"singsym {found}")
+        parser.exit()

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from singsym.cli.mechanisms import placed, read
-from singsym.cli.screen import UserError
+from singsym.cli.screen import UserError, writable
 from singsym.cli.singularities import UNDECIDED, classified
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 def run_report(chosen: argparse.Namespace) -> int:
     """`singsym report MECHANISM -o FILE`: prints the file's name."""
     path = Path(chosen.output or f"{Path(chosen.mechanism).stem}.html")
-    _writable(path)
+    writable(path)
     result = classified(chosen)
     try:
         result.report(path)
@@ -36,7 +36,7 @@ def run_plot(chosen: argparse.Namespace) -> int:
     Of a class each family has a figure; where there are several the files are numbered.
     """
     path = Path(chosen.output or f"{Path(chosen.mechanism).stem}.svg")
-    _writable(path)
+    writable(path)
     try:
         pictures, code = _pictures(chosen)
         numbered = [path.with_stem(f"{path.stem}-{k}") for k in range(1, len(pictures) + 1)]
@@ -69,9 +69,3 @@ def _pictures(chosen: argparse.Namespace) -> tuple[tuple[Picture, ...], int]:
     from singsym.output.figures.figure import plot_families
 
     return plot_families(result, result[int(chosen.shown)]), code
-
-
-def _writable(path: Path) -> None:
-    """Say before the work starts that its result could not be written."""
-    if not path.absolute().parent.is_dir():
-        raise UserError(f"{path} cannot be written: there is no folder {path.parent}")

@@ -9,6 +9,7 @@ import json
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
@@ -23,6 +24,12 @@ class UserError(Exception):
     """What the user can put right, as one paragraph."""
 
 
+def writable(path: Path) -> None:
+    """Say before the work starts that its result could not be written."""
+    if not path.absolute().parent.is_dir():
+        raise UserError(f"{path} cannot be written: there is no folder {path.parent}")
+
+
 def say(text: str) -> None:
     """A message on stderr, unless the user wants none."""
     if talk.get() != "quiet":
@@ -33,6 +40,13 @@ def emit_data(data: Any) -> None:
     """JSON on stdout, in one line for a pipe and indented for a terminal."""
     unicode = (sys.stdout.encoding or "").lower().replace("-", "") == "utf8"
     print(json.dumps(data, indent=2 if sys.stdout.isatty() else None, ensure_ascii=not unicode))
+
+
+def emit_latex(body: str, title: str, standalone: bool) -> None:
+    """LaTeX on stdout: a whole document, or what others take in by \\input."""
+    from singsym.output.document import document, fragment
+
+    print(document(body, title) if standalone else fragment(body))
 
 
 def emit_page(page: Page) -> None:

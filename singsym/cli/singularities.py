@@ -9,10 +9,11 @@ import argparse
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 from singsym.cli.mechanisms import complaint, placed, read
-from singsym.cli.screen import UserError, emit_data, emit_page
+from singsym.cli.screen import UserError, emit_data, emit_latex, emit_page, writable
 from singsym.mechanism import Mechanism, MechanismError
 from singsym.mechanism.choices import is_redundant
 
@@ -43,11 +44,10 @@ def run_conditions(chosen: argparse.Namespace) -> int:
 
         emit_data(conditions_data(mechanism.name, found, lengths))
     elif chosen.format == "latex":
-        from singsym.output.document import document, fragment
         from singsym.output.latex import conditions_latex
 
         body = conditions_latex(found, mechanism, lengths, expand=chosen.expand)
-        print(document(body, mechanism.title or mechanism.name) if chosen.standalone else fragment(body))
+        emit_latex(body, mechanism.title or mechanism.name, chosen.standalone)
     else:
         from singsym.output.conditions_page import conditions_page
 
@@ -64,10 +64,8 @@ def _redundant_conditions(chosen: argparse.Namespace, mechanism: Mechanism) -> i
     if chosen.format == "json":
         emit_data(redundant_page.redundant_data(mechanism.name, found))
     elif chosen.format == "latex":
-        from singsym.output.document import document, fragment
-
         body = redundant_page.redundant_latex(mechanism, found, expand=chosen.expand)
-        print(document(body, mechanism.title or mechanism.name) if chosen.standalone else fragment(body))
+        emit_latex(body, mechanism.title or mechanism.name, chosen.standalone)
     else:
         emit_page((mechanism.name, *redundant_page.redundant_page(found, expand=chosen.expand)))
     return 0
@@ -83,11 +81,10 @@ def run_classes(chosen: argparse.Namespace) -> int:
 
         emit_data(classes_data(found, chosen.n))
     elif chosen.format == "latex":
-        from singsym.output.document import document, fragment
         from singsym.output.latex import classes_latex
 
         body = classes_latex(found, chosen.n)
-        print(document(body, "Classes of singular configurations") if chosen.standalone else fragment(body))
+        emit_latex(body, "Classes of singular configurations", chosen.standalone)
     else:
         from singsym.output.text import classes_page
 
@@ -119,6 +116,8 @@ def run_classify(chosen: argparse.Namespace) -> int:
     """`singsym classify MECHANISM`; what is known when it is interrupted is printed too."""
     from singsym.classes.running.runner import Interrupted
 
+    if chosen.certificate:
+        writable(Path(chosen.certificate))
     try:
         result = classified(chosen)
     except Interrupted as interruption:
@@ -138,12 +137,11 @@ def _emit_classification(result: Classification, chosen: argparse.Namespace) -> 
 
         emit_data(classification_data(result))
     elif chosen.format == "latex":
-        from singsym.output.document import document, fragment
         from singsym.output.latex import classification_latex
 
         body = classification_latex(result)
         title = result.mechanism.title or result.mechanism.name if result.mechanism else "Given equations"
-        print(document(body, title) if chosen.standalone else fragment(body))
+        emit_latex(body, title, chosen.standalone)
     else:
         from singsym.output.text import classification_page
 
@@ -189,11 +187,10 @@ def _emit_solutions(mechanism: Mechanism, found: Sequence[Solution], chosen: arg
 
         emit_data(solution_data(mechanism.name, found, lengths))
     elif chosen.format == "latex":
-        from singsym.output.document import document, fragment
         from singsym.output.latex import solution_latex
 
         body = solution_latex(found, lengths)
-        print(document(body, mechanism.title or mechanism.name) if chosen.standalone else fragment(body))
+        emit_latex(body, mechanism.title or mechanism.name, chosen.standalone)
     else:
         from singsym.output.text import solution_page
 

@@ -36,12 +36,13 @@ def run_completion(chosen: argparse.Namespace) -> int:
     from singsym.mechanism.library import names
 
     mechanisms = " ".join(names())
+    found = commands()
     cases = [
         f'            {name}) words="{" ".join(options)}{" " + mechanisms if takes_mechanism else ""}" ;;'
-        for name, options, takes_mechanism in commands()
+        for name, options, takes_mechanism in found
     ]
     prelude = "autoload -U +X bashcompinit && bashcompinit\n" if chosen.shell == "zsh" else ""
-    listed = " ".join(name for name, _, _ in commands())
+    listed = " ".join(name for name, _, _ in found)
     print(_COMPLETION.format(prelude=prelude, commands=listed, cases="\n".join(cases)), end="")
     return 0
 

@@ -266,18 +266,15 @@ class _Following:
         scaled = scaled_matrix(self.equation, point)
         seen = {name: numerical_rank(m, _ROUNDING, size=1.0) for name, m in scaled.submatrices().items()}
         N, n = self.equation.N, self.equation.n
-        if defects is None:
+        known = defects
+        if known is None:
             ranks = {name: found.rank for name, found in seen.items()}
-            numerical = Defects.of_ranks(ranks["L"], ranks["L_I"], ranks["L_O"], ranks["L_p"], N, n)
-        else:
-            numerical = defects
-            ranks = {"L": N - defects.delta, "L_I": N - defects.k_I, "L_O": N - defects.k_O}
-            ranks["L_p"] = N - n - defects.p
-        feasible = numerical.is_feasible(n) and kind != "narrow"
-        types = numerical.types if feasible else SingularityType(0)
+            known = Defects.of_ranks(ranks["L"], ranks["L_I"], ranks["L_O"], ranks["L_p"], N, n)
+        feasible = known.is_feasible(n) and kind != "narrow"
+        types = known.types if feasible else SingularityType(0)
         motions: tuple[Motion, ...] = ()
         if feasible and types:
-            kernels = numerical_kernels(scaled, seen, ranks)
+            kernels = numerical_kernels(scaled, seen, known.ranks(N, n))
             motions = null_motions(self.equation, kernels, scaled.units, types)
         return Passage(
             kind,

@@ -129,3 +129,5 @@ def test_the_gallery_has_a_picture_of_each_mechanism(site: Path) -> None:
 def test_no_formula_is_left_as_latex(site: Path) -> None:
     for page in site.rglob("index.html"):
         assert "arithmatex" not in page.read_text(encoding="utf-8"), page
+    theory = site / "theory" / "velocity-equation" / "index.html"
+    assert "<math" in theory.read_text(encoding="utf-8")

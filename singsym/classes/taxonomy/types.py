@@ -96,6 +96,14 @@ class Defects(NamedTuple):
         """From the four ranks, N joints and mobility n."""
         return cls(N - rank_L, N - n - rank_L_p, N - rank_L_I, N - rank_L_O)
 
+    def ranks(self, N: int, n: int) -> dict[str, int]:
+        """The ranks of L, L_I, L_O and L_p with N joints and mobility n.
+
+        >>> Defects(delta=0, p=0, k_I=1, k_O=0).ranks(N=8, n=2)
+        {'L': 8, 'L_I': 7, 'L_O': 8, 'L_p': 6}
+        """
+        return {"L": N - self.delta, "L_I": N - self.k_I, "L_O": N - self.k_O, "L_p": N - n - self.p}
+
     @property
     def types(self) -> SingularityType:
         """The types of a configuration with these defects: conditions (i)-(vi).

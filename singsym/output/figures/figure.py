@@ -5,7 +5,7 @@ Source: Figs 1-12 of Zlatanov, Fenton, Benhabib (1998).
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
@@ -236,11 +236,3 @@ def _class_words(stage: Stage, title: str, motions: Sequence[Motion]) -> str:
 
     moving = "; ".join(f"{WORDS[m.type]} ({rates_text(m)})" for m in motions)
     return f"{title} of {stage.mechanism.title or stage.mechanism.name}. Arrows: {moving}"
-
-
-def class_pictures(classification: Classification) -> Iterator[tuple[ClassResult, Picture]]:
-    """The pictures of each class's families, in the order of the classes."""
-    for result in classification.classes:
-        if result.witnesses:
-            for picture in plot_families(classification, result):
-                yield result, picture

@@ -45,12 +45,7 @@ def motions_at(equation: VelocityEquation, point: Floats, defects: Defects) -> t
     """All null motions and restrictions of a configuration whose rank defects are known."""
     scaled = scaled_matrix(equation, point)
     seen = {name: numerical_rank(part) for name, part in scaled.submatrices().items()}
-    ranks = {
-        "L": equation.N - defects.delta,
-        "L_I": equation.N - defects.k_I,
-        "L_O": equation.N - defects.k_O,
-        "L_p": equation.N - equation.n - defects.p,
-    }
+    ranks = defects.ranks(equation.N, equation.n)
     return null_motions(equation, numerical_kernels(scaled, seen, ranks), scaled.units, defects.types)
 
 

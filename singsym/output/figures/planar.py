@@ -49,7 +49,7 @@ def draw_planar(axes: Any, scene: Scene, motions: Sequence[Moving] = ()) -> None
         if mark.joint.kind is JointKind.P:
             _slider(axes, mark, size)
     grounded = [m for m in scene.marks if m.grounded and m.joint.kind is not JointKind.P]
-    for place in distinct(m.base for m in grounded) if grounded else ():
+    for place in distinct(m.base for m in grounded):
         draw_foot(axes, place, size)
     for mark in scene.marks:
         if mark.joint.kind is not JointKind.P:

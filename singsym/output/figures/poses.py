@@ -43,12 +43,7 @@ def clearance(stage: Stage, point: Floats, defects: Defects = REGULAR) -> float:
     over the size of the mechanism.
     """
     equation = stage.equation
-    ranks = {
-        "L": equation.N - defects.delta,
-        "L_I": equation.N - defects.k_I,
-        "L_O": equation.N - defects.k_O,
-        "L_p": equation.N - equation.n - defects.p,
-    }
+    ranks = defects.ranks(equation.N, equation.n)
     scaled = scaled_matrix(equation, point)
     found = []
     for name, part in scaled.submatrices().items():

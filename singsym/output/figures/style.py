@@ -8,6 +8,7 @@ from __future__ import annotations
 import io
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -59,11 +60,16 @@ class Picture:
 
     def places(self, x: Floats, y: Floats) -> Floats:
         """Where points of the first axes are in the SVG element, one a row."""
-        self.figure.draw_without_rendering()
-        pixels = self.figure.axes[0].transData.transform(np.column_stack([x, y]))
+        pixels = self._placing.transform(np.column_stack([x, y]))
         points = pixels * 72 / self.figure.dpi
         height = 72 * self.figure.get_figheight()
         return np.column_stack([points[:, 0], height - points[:, 1]])
+
+    @cached_property
+    def _placing(self) -> Any:
+        """From points of the first axes to pixels, once all is laid out."""
+        self.figure.draw_without_rendering()
+        return self.figure.axes[0].transData
 
     def save(self, path: str | Path) -> Path:
         """Write to a file; its ending says the format (svg, pdf, png and what else matplotlib writes)."""

@@ -85,11 +85,12 @@ def page(title: str, body: str, script: str = "", more_style: str = "") -> str:
     light = " ".join(f"{name}: {colour};" for colour, name in _LIGHT.items()) + " --faint: #59626e;"
     dark = " ".join(f"{name}: {colour};" for name, colour in _DARK.items()) + " --faint: #a3adba;"
     style = _STYLE.replace("LIGHT", light, 1).replace("DARK", dark, 1) + more_style
+    scripts = f"<script>{script}</script>\n" if script else ""
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         f"<title>{escape(title)}</title>\n<style>{style}</style>\n</head>\n<body>\n{body}\n"
-        f"<script>{script}</script>\n</body>\n</html>\n"
+        f"{scripts}</body>\n</html>\n"
     )
 
 

@@ -195,11 +195,11 @@ def _shapes(scene: Scene, places: _Places) -> Iterator[dict[str, Any]]:
     for body, k in sorted(((b, k) for k, b in enumerate(scene.bodies)), key=lambda pair: not pair[0].ground):
         yield from _body(body, k, places, scene.space)
     for k, mark in enumerate(scene.marks):
-        yield from _joint(mark, k, places, scene.space)
+        yield from _joint(mark, k, places, scene.space, scene.size)
     for k in range(len(scene.outputs)):
         yield _shape("path", "diamond", [places(_output(k))], 9, text=_DIAMOND)
     if spherical:
-        named = [(m.joint.name, _end(k, 0, 1.1)) for k, m in enumerate(scene.marks) if m.axes]
+        named = [(m.joint.name, _end(k, 1.1)) for k, m in enumerate(scene.marks) if m.axes]
     else:
         named = [(name, _named(name)) for name in scene.names]
     for name, where in named:
@@ -233,20 +233,20 @@ def _bar(style: str, ends: Sequence[int], **more: Any) -> Iterator[dict[str, Any
         yield _shape("polyline", f"{style} {part}", ends, rank, **more)
 
 
-def _joint(mark: Mark, k: int, places: _Places, space: Space) -> Iterator[dict[str, Any]]:
+def _joint(mark: Mark, k: int, places: _Places, space: Space, size: float) -> Iterator[dict[str, Any]]:
     role = "input" if mark.active else "output" if mark.output else "passive"
-    place = places(_end(k, 0, 1.0) if space is Space.SPHERICAL else lambda s: s.marks[k].place)
+    place = places(_end(k, 1.0) if space is Space.SPHERICAL else lambda s: s.marks[k].place)
     if space is Space.SPHERICAL:
-        yield _shape("polyline", f"axis {role}", [places(lambda s: np.zeros(3)), places(_end(k, 0, 1.12))], 3)
+        yield _shape("polyline", f"axis {role}", [places(lambda s: np.zeros(3)), places(_end(k, 1.12))], 3)
     elif mark.joint.kind is JointKind.P:
-        yield from _slide(mark, k, role, places)
+        yield from _slide(mark, k, role, places, size)
         return
     else:
         if space is not Space.PLANAR and np.abs(mark.place - mark.base).max() > 1e-6:
             yield _shape("polyline", "rod", [places(lambda s: s.marks[k].base), place])
         for i in range(len(mark.axes)):
-            long = [places(_beside(k, i, side * 1.5 * _AXIS)) for side in (-1, 1)]
-            short = [places(_beside(k, i, side * _AXIS / 2)) for side in (-1, 1)]
+            long = [places(_beside(k, i, side * 1.5 * _AXIS * size)) for side in (-1, 1)]
+            short = [places(_beside(k, i, side * _AXIS * size / 2)) for side in (-1, 1)]
             yield _shape("polyline", f"axis {role}", long, 3)
             yield _shape("polyline", "case", short, 5)
             yield _shape("polyline", f"inner {role}", short, 6)
@@ -255,14 +255,14 @@ def _joint(mark: Mark, k: int, places: _Places, space: Space) -> Iterator[dict[s
     yield _shape("circle", f"pin {role}", [place], 7, radius=5 if mark.axes else 7)
 
 
-def _slide(mark: Mark, k: int, role: str, places: _Places) -> Iterator[dict[str, Any]]:
+def _slide(mark: Mark, k: int, role: str, places: _Places, size: float) -> Iterator[dict[str, Any]]:
     """A rod from point to point in a case over half of it; a short case alone where they stay together."""
     if np.abs(mark.place - mark.base).max() > 1e-6:
         ends = [places(lambda s: s.marks[k].base), places(lambda s: s.marks[k].place)]
         case = [ends[0], places(lambda s: (s.marks[k].base + s.marks[k].place) / 2)]
         yield _shape("polyline", "rod", ends)
     else:
-        case = [places(_beside(k, 0, side * _AXIS)) for side in (-1, 1)]
+        case = [places(_beside(k, 0, side * _AXIS * size)) for side in (-1, 1)]
     yield _shape("polyline", "case", case, 5)
     yield _shape("polyline", f"inner {role}", case, 6)
 
@@ -285,16 +285,16 @@ def _corner(k: int, i: int) -> _Where:
     return lambda scene: scene.bodies[k].places[i]
 
 
-def _beside(k: int, i: int, part: float) -> _Where:
-    """A place on an axis of a joint, so far from the joint, over the size of the scene."""
+def _beside(k: int, i: int, length: float) -> _Where:
+    """A place on an axis of a joint, so far from the joint."""
 
     def where(scene: Scene) -> Floats:
         mark = scene.marks[k]
-        return mark.place + part * scene.size * mark.axes[i] if i < len(mark.axes) else mark.place
+        return mark.place + length * mark.axes[i] if i < len(mark.axes) else mark.place
 
     return where
 
 
-def _end(k: int, i: int, radius: float) -> _Where:
-    """Where an axis through the middle of a sphere is, so far from it."""
-    return lambda scene: radius * scene.marks[k].axes[i]
+def _end(k: int, radius: float) -> _Where:
+    """Where a joint's axis through the middle of a sphere is, so far from it."""
+    return lambda scene: radius * scene.marks[k].axes[0]

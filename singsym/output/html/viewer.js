@@ -5,7 +5,6 @@ const SVG = 'http://www.w3.org/2000/svg';
 
 class Scene {
   constructor(box) {
-    this.box = box;
     this.data = JSON.parse(box.querySelector('script').textContent);
     this.svg = box.querySelector('svg');
     this.track = box.querySelector('select');
