@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from singsym.conditions.incidences.arms import Arm, arm
+from singsym.conditions.incidences.hinges import beside_hinges
 from singsym.conditions.incidences.platforms import Platform, platform
 from singsym.conditions.incidences.quantities import Quantity
 from singsym.conditions.incidences.slides import beside_slides
@@ -56,6 +57,7 @@ class Incidences:
         elif self.platform is not None:
             yield from self.platform.values()
         yield from beside_slides(self.equation)
+        yield from beside_hinges(self.equation)
 
     @property
     def output_at_rest(self) -> str:
