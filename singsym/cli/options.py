@@ -171,7 +171,7 @@ def _workers() -> str:
 
 def labels(command: argparse.ArgumentParser) -> None:
     """The conditions to solve."""
-    labels = ("4", "5", "i", "ii", "iii", "iv", "v", "vi", "vii", "viii")
+    labels = ("4", "5", "i", "ii", "iii", "iv", "v", "vi", "vii", "viii", "cusps")
     command.add_argument(
         "labels", nargs="+", metavar="CONDITION", choices=labels, help="of " + ", ".join(labels)
     )

@@ -151,18 +151,19 @@ def _emit_classification(result: Classification, chosen: argparse.Namespace) -> 
 def run_solve(chosen: argparse.Namespace) -> int:
     """`singsym solve MECHANISM CONDITION ...`; what is known when it is interrupted is printed too."""
     from singsym.classes.running.runner import Interrupted
-    from singsym.classes.solve import solve
+    from singsym.classes.solve import CUSPS, solve
     from singsym.cli.screen import progress_shown
     from singsym.elimination import engines
 
     mechanism = read(chosen)
     placed(mechanism, chosen.formulation)
     _resumable(chosen)
+    asked = [own for label in chosen.labels for own in (CUSPS if label == "cusps" else (label,))]
     try:
         with engines.use(*chosen.engines), progress_shown(), _cluster(chosen) as executor:
             found = solve(
                 mechanism,
-                *dict.fromkeys(chosen.labels),
+                *dict.fromkeys(asked),
                 formulation=chosen.formulation,
                 workers=chosen.workers,
                 executor=executor,
@@ -247,7 +248,7 @@ def run_at(chosen: argparse.Namespace) -> int:
         if chosen.distance:
             from singsym.motion.distance import singularity_distance
 
-            distance = singularity_distance(mechanism, found, formulation=chosen.formulation)
+            distance = singularity_distance(found)
     except MechanismError as error:
         raise UserError(complaint(error.problems)) from None
     except OSError as error:
