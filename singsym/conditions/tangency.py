@@ -146,7 +146,7 @@ class _Slopes:
             row = self._by_joints(k) if value is None and role == "output" else None
             if value is None and row is None:
                 raise Undecided(f"the formulation has no coordinate whose rate is the {role} {label}")
-            yield self._rate(value) if value is not None else row or ()
+            yield value.rate(self.of) if value is not None else row or ()
 
     def _output(self, place: int) -> JointValue | None:
         return self.equation.outputs[place][1] if self.equation.outputs else None
@@ -166,7 +166,7 @@ class _Slopes:
             value, screw = equation.values.get(column.label), screws.get(column.label, ())
             turn = screw[:3] if value is not None and value.cosine is not None else screw[-3:]
             unit = sum((x * x for x in turn), ring.zero) - 1
-            rate = () if value is None else self._rate(value)
+            rate = () if value is None else value.rate(self.of)
             if value is None or not equation.conditions.certifier.shorten(unit).is_zero or value.square:
                 return None
             scale = value.scale if value.scale is not None else ring.one
@@ -174,13 +174,6 @@ class _Slopes:
                 return None
             total = [t - entry * r / (scale.constant**2) for t, r in zip(total, rate, strict=True)]
         return tuple(total)
-
-    def _rate(self, value: JointValue) -> Equations:
-        if value.cosine is not None and value.sine is not None:
-            c, s = value.cosine, value.sine
-            return tuple(c * b - s * a for a, b in zip(self.of(c), self.of(s), strict=True))
-        side = value.square if value.length is None else value.length
-        return self.of(self.equation.space.ring.zero if side is None else side)
 
     def turning(
         self,
