@@ -1,39 +1,77 @@
-"""Cusps: numbers from the literature, and from scans that follow the singularity curve in floats."""
+"""Cusps: numbers from the literature, and scans that follow the singularity curve in floats."""
 
 from __future__ import annotations
+
+from fractions import Fraction
 
 import numpy as np
 import pytest
 
 from singsym.classes.solve import solve
-from singsym.mechanism import Mechanism, load, loads
+from singsym.mechanism import load
 
 
-def arm_scan(d2: float, d3: float, d4: float, r2: float) -> list[tuple[float, float]]:
-    """(theta2, theta3) of the cusps of an orthogonal 3R arm, by kinematics written down by hand.
+def scanned(d2: float, d3: float, d4: float, r2: float) -> list[tuple[float, float]]:
+    """(theta2, theta3) at the cusps of an orthogonal 3R arm, by its kinematics written down by hand.
 
-    The tool is at x = d2 + c2 X, y = W, z = -s2 X with X = d3 + d4 c3, W = r2 + d4 s3; in (x^2 + y^2, z) the
-    map of the two angles folds along a curve, and cusps are where the fold's image turns back.
+    The tool is at x = d2 + c2 X, y = W, z = -s2 X with X = d3 + d4 c3, W = r2 + d4 s3, up to turns of the
+    first joint.  Of the singularity curve d2 s3 + c2 (d3 s3 - r2 c3) = 0 the image in (x^2 + y^2, z) turns
+    back at cusps.
     """
-    t = np.linspace(-np.pi, np.pi, 200_001)
-    cosine = -np.sin(t) * d2 / (np.sin(t) * d3 - np.cos(t) * r2)
+    turn = np.linspace(-np.pi, np.pi, 100_001)
+    cosine = -np.sin(turn) * d2 / (np.sin(turn) * d3 - np.cos(turn) * r2)
     found = []
     for side in (1, -1):
         with np.errstate(invalid="ignore"):
-            a = side * np.arccos(cosine)
-        x, w = d3 + d4 * np.cos(t), r2 + d4 * np.sin(t)
-        image = np.array([(d2 + np.cos(a) * x) ** 2 + w**2, -np.sin(a) * x])
+            other = side * np.arccos(cosine)
+        x, w = d3 + d4 * np.cos(turn), r2 + d4 * np.sin(turn)
+        image = np.array([(d2 + np.cos(other) * x) ** 2 + w**2, -np.sin(other) * x])
         steps = np.diff(image, axis=1)
-        ends = (steps[:, 1:] * steps[:, :-1]).sum(axis=0) < 0
-        found += [(float(a[k + 1]), float(t[k + 1])) for k in np.flatnonzero(ends)]
+        back = np.flatnonzero((steps[:, 1:] * steps[:, :-1]).sum(axis=0) < 0) + 1
+        found += list(zip(other[back].tolist(), turn[back].tolist(), strict=True))
     return sorted(found)
 
 
-@pytest.mark.parametrize(("d2", "d3", "d4", "r2"), [(1, 2, "3/2", 1), (1, 2, "1/2", 1), (2, 1, 3, "1/2")])
-def test_cusps_of_orthogonal_arms(d2: object, d3: object, d4: object, r2: object) -> None:
-    """Row 16: the first has 4 (Baili, Wenger, Chablat); all as their scans say, where the tool is off J1."""
-    lengths = {"d2": d2, "d3": d3, "d4": d4, "r2": r2}
-    arm = load("orthogonal-3r").with_parameters(**lengths)
+@pytest.mark.parametrize(
+    ("lengths", "count"),
+    [(("1", "2", "3/2", "1"), 4), (("1", "2", "1/2", "1"), 4), (("2", "1", "3", "1/2"), 0)],
+    ids=["published", "short tool", "long tool"],
+)
+def test_cusps_of_orthogonal_arms(lengths: tuple[str, ...], count: int) -> None:
+    """Row 16: 4 of the first (Baili, Wenger, Chablat); all where the scan finds them, to its step.
+
+    The first has two more configurations with a tangent null motion, the tool on J1's axis, which are none.
+    """
+    arm = load("orthogonal-3r").with_parameters(**dict(zip(("d2", "d3", "d4", "r2"), lengths, strict=True)))
     (found,) = solve(arm, "cusps 5", cache=False)
-    seen = arm_scan(*(float(eval(str(x))) for x in lengths.values()))
-    print(seen, [(p.points, p.path) for p in found.pieces])
+    joints = [w.joints for piece in found.pieces for w in piece.witnesses]
+    places = sorted((float(j["J2"]), float(j["J3"])) for j in joints)
+    assert not found.undecided
+    assert sum(piece.points or 0 for piece in found.pieces) == len(places) == count
+    seen = scanned(*(float(Fraction(x)) for x in lengths))
+    assert np.allclose(np.reshape(places, (-1, 2)), np.reshape(seen, (-1, 2)), atol=1e-3)
+
+
+def test_a_mechanism_with_two_assemblies_has_none() -> None:
+    """A cusp needs three assemblies over the same inputs; a five-bar has two, this one's rods do not fold.
+
+    With equal rods on coincident cranks the rods turn together: a curve of self-motions, dimension n - 1.
+    """
+    uneven = load("five-bar").with_parameters(l2=3, l3=4, l1=2, l4=3, d=5)
+    assert [s.dimension for s in solve(uneven, "cusps 4", "cusps 5", cache=False)] == [-1, -1]
+    (even,) = solve(load("five-bar"), "cusps 4", cache=False)
+    assert even.dimension == 1
+    assert "self-motions" in even.condition.types
+
+
+def test_what_cannot_be_asked_is_undecided() -> None:
+    """The output has a rotation of the platform, of which the coordinates have no angle."""
+    (found,) = solve(load("3rrr"), "cusps 5", cache=False)
+    assert found.undecided
+    assert "T.w" in found.doubts[0]
+
+
+def test_other_labels_are_refused() -> None:
+    """Cusps are those of (4) and (5)."""
+    with pytest.raises(KeyError, match="cusps iii"):
+        solve(load("2r"), "cusps iii", cache=False)

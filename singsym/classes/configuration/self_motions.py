@@ -68,7 +68,7 @@ def self_motions(
     >>> flat = {"points": {"B": ["3/2", "sqrt(7)/2"], "D": ["3/2", "sqrt(7)/2"], "C": ["9/2", "sqrt(7)/2"]}}
     >>> mine = load("five-bar").with_parameters(d=3)
     >>> [(m.held, m.null_motions, m.dimension) for m in self_motions(mine, flat)]
-    [('inputs', 1, 1), ('outputs', 1, 0)]
+    [('inputs', 1, 1), ('outputs', 0, 0)]
     """
     return self_motions_equation(velocity_equation(mechanism, formulation), given, file=file)
 
