@@ -207,7 +207,8 @@ def test_cusps_and_self_motions(capsys, tmp_path):
     arm, here = tmp_path / "arm.toml", tmp_path / "here.toml"
     arm.write_text(
         'name = "arm"\ntitle = "arm"\nsource = "own"\ninputs = ["A", "B", "C"]\noutput = {velocity = "D"}\n'
-        '[links]\nground = {points = {A = [0, 0]}}\nAB = 2\nBC = 2\nCD = 1\n[joints]\nA = "R"\nB = "R"\nC = "R"'
+        "[links]\nground = {points = {A = [0, 0]}}\nAB = 2\nBC = 2\nCD = 1\n"
+        '[joints]\nA = "R"\nB = "R"\nC = "R"'
     )
     here.write_text('[joints]\nA = "30 deg"\nB = "60 deg"\nC = 0')
     assert main(["at", str(arm), "--config", str(here)]) == 2

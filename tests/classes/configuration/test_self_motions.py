@@ -59,7 +59,7 @@ def test_a_redundant_arm(
 
 
 def test_five_bar_with_coincident_cranks() -> None:
-    """B = D and equal rods: C turns about B while A and E rest; C rests with all, for A, B, C are not in line."""
+    """B = D and equal rods: C turns about B while A and E rest; C rests with all, A, B, C not in line."""
     place = ["1/2", "sqrt(15)/2"]
     folded = {"points": {"B": place, "D": place, "C": ["7/2", "sqrt(15)/2"]}}
     assert of("five-bar", folded) == [(1, 1), (0, 0)]
