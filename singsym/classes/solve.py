@@ -2,7 +2,7 @@
 
 Source: Zlatanov, Fenton, Benhabib (1998), the propositions of section 2.3: (iii), (vi), (4), (5), (vii),
 (viii) are closed; (i), (ii), (iv), (v) compare ranks, and their sets are unions of classes.  Cusps are those
-of `singsym.conditions.tangency`.
+of `singsym.classes.tangency`.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ from singsym.classes.classify import Limits, classify_inside
 from singsym.classes.realisation.certified_configuration import Names, configuration
 from singsym.classes.result import Classification, Configuration, Piece
 from singsym.classes.running.runner import Interrupted, Runner, running
+from singsym.classes.tangency import ROLES, tangencies
 from singsym.classes.taxonomy.types import SingularityType
 from singsym.classes.unit_border import Border
 from singsym.conditions.conditions import Condition, Conditions, conditions
-from singsym.conditions.tangency import ROLES, tangencies
 from singsym.effort.budget import Budget, Undecided, current
 from singsym.effort.progress import Sink, to
 from singsym.effort.verdict import Certainty, Known, Premises, Verdict, weakest

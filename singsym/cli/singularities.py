@@ -276,5 +276,5 @@ def _examined(mechanism: Mechanism, chosen: argparse.Namespace) -> int:
     if chosen.format == "json":
         emit_data(data)
     else:
-        emit_page(page)
+        emit_page(tuple(page))
     return UNDECIDED if is_open else 0

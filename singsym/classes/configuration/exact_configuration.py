@@ -98,7 +98,8 @@ class ExactPoint:
     def real_point(self) -> RealPoint:
         """The same over the ring with one name more, a number that generates the field, as a constant."""
         ring, name = self.equation.space.ring, "number field"
-        minimal, low, high = (0, 1), Fraction(-1), Fraction(1)
+        minimal: tuple[int, ...] = (0, 1)
+        low, high = Fraction(-1), Fraction(1)
         if self.numbers.is_Algebraic:
             integers = [int(c) for c in self.numbers.ext.minpoly.clear_denoms(convert=True)[1].all_coeffs()]
             minimal = tuple(reversed(integers))

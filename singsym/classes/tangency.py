@@ -76,7 +76,9 @@ def _tangency(
         raise Undecided(f"too many terms in the {wide.shape[0]} equations for a tangent null motion")
     tangent = tuple(minor for _, _, minor in maximal_minors(wide))
     several = tuple(minor for _, _, minor in minors(left, left.width - 1))
-    columns = {slopes.labels[j]: tuple(row[k] for row in left.rows) for k, j in enumerate(kept)}
+    columns: dict[Pair | str, Equations] = {
+        slopes.labels[j]: tuple(row[k] for row in left.rows) for k, j in enumerate(kept)
+    }
     held = slopes.turning(f, tangent, several, columns)
     at_zero = {c: ring.one for c, _ in held} | {s: ring.zero for _, s in held}
     products = minor_factors(wide.map(lambda p: p.substitute(at_zero)), certifier)
@@ -126,7 +128,7 @@ class _Slopes:
         self.pairs = separate_circles(equation.space.equations)
         inside = {name for pair in self.pairs for name in pair}
         self.others = tuple(name for name in equation.space.variables if name not in inside)
-        self.labels = (*self.pairs, *self.others)
+        self.labels: tuple[Pair | str, ...] = (*self.pairs, *self.others)
 
     def of(self, p: Polynomial) -> Equations:
         """Along each coordinate."""
