@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from singsym.classes.configuration.given_values import Given
     from singsym.classes.configuration.locate import Located
     from singsym.classes.configuration.null_motions import Motion
+    from singsym.classes.configuration.self_motions import SelfMotion, self_motions, self_motions_equation
     from singsym.classes.result import Classification, ClassResult, Configuration, Locus, Piece, SpacePiece
     from singsym.classes.running.runner import Interrupted
     from singsym.classes.solve import Solution, SolutionPiece, solve, solve_equation
@@ -89,6 +90,7 @@ _HOMES = {
     "singsym.classes.configuration.given_values": "Given",
     "singsym.classes.configuration.locate": "Located",
     "singsym.classes.configuration.null_motions": "Motion",
+    "singsym.classes.configuration.self_motions": "SelfMotion self_motions self_motions_equation",
     "singsym.classes.result": "Classification ClassResult Configuration Locus Piece SpacePiece",
     "singsym.classes.running.runner": "Interrupted",
     "singsym.classes.solve": "Solution SolutionPiece solve solve_equation",
@@ -187,6 +189,7 @@ __all__ = [
     "Reduction",
     "RedundantChain",
     "Ring",
+    "SelfMotion",
     "SingularityClass",
     "SingularityDistance",
     "SingularityType",
@@ -229,6 +232,8 @@ __all__ = [
     "real_curve",
     "reduce",
     "redundant_chain",
+    "self_motions",
+    "self_motions_equation",
     "singularity_distance",
     "solve",
     "solve_equation",

@@ -1,7 +1,8 @@
-"""The solution set of one of the conditions (4), (5), (i)-(viii) on the feasible configurations.
+"""The solution set of one of the conditions (4), (5), (i)-(viii) on the feasible configurations, and cusps.
 
 Source: Zlatanov, Fenton, Benhabib (1998), the propositions of section 2.3: (iii), (vi), (4), (5), (vii),
-(viii) are closed; (i), (ii), (iv), (v) compare ranks, and their sets are unions of classes.
+(viii) are closed; (i), (ii), (iv), (v) compare ranks, and their sets are unions of classes.  Cusps are those
+of `singsym.classes.tangency`.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from singsym.classes.classify import Limits, classify_inside
 from singsym.classes.realisation.certified_configuration import Names, configuration
 from singsym.classes.result import Classification, Configuration, Piece
 from singsym.classes.running.runner import Interrupted, Runner, running
+from singsym.classes.tangency import ROLES, tangencies
 from singsym.classes.taxonomy.types import SingularityType
 from singsym.classes.unit_border import Border
 from singsym.conditions.conditions import Condition, Conditions, conditions
@@ -48,6 +50,9 @@ HOLDS = {
     "viii": _T.RI | _T.RPM,
 }
 """A condition holds where a configuration has one of these types: k_I > 0 is RO or RPM, k_O > 0 RI or RPM."""
+
+CUSPS = tuple(f"cusps {label}" for label in ROLES)
+"""The labels of cusps, of (4) and of (5)."""
 
 
 @dataclass(frozen=True)
@@ -180,7 +185,10 @@ def solve(
 ) -> tuple[Solution, ...]:
     """The solution sets of conditions "4", "5", "i" ... "viii", one each; options as for `classify`.
 
-    Raises `KeyError` for another label.
+    "cusps 4", "cusps 5": the configurations where the one null motion is tangent to (4), or (5), off those
+    where (4), or (5), crosses itself or is not smooth.  An angle whose turns are all as good is held at 0, as
+    the equations of the pieces say.  A piece as large as (4), or (5), is made of self-motions: the inputs, or
+    the outputs, rest.  Raises `KeyError` for another label.
 
     >>> from singsym.mechanism import load
     >>> dead, = solve(load("slider-crank"), "5", cache=False)
@@ -235,21 +243,23 @@ def _solved(
     """The solution sets, found inside and turned to the user's unit."""
     found = conditions(border.inside)
     outside = found if border.unit == 1 else conditions(border.outside)
-    asked = [found[label] for label in labels]
+    asked = [found[label.removeprefix("cusps ") if label in CUSPS else label] for label in labels]
     limits = limits or Limits()
     budget = Budget(limits.clock, work=limits.total)
     with running(workers, executor, limits.clock, cache) as runner:
         whole: Classification | None = None
         results = []
-        for condition in asked:
-            if condition.alternatives is None or condition.everywhere:
+        for label, condition in zip(labels, asked, strict=True):
+            if label in CUSPS:
+                solution = _cusps(condition, found, runner, limits, budget)
+            elif condition.alternatives is None or condition.everywhere:
                 left = replace(limits, clock=None if limits.clock is None else budget.time_left())
                 whole = whole or classify_inside(mechanism, border, runner, left)
                 solution = _from_classes(condition, whole)
             else:
                 solution = _closed(condition, found, runner, limits, budget)
             shown = tuple(map(border.part, solution.pieces))
-            seen = outside[condition.label]
+            seen = solution.condition if label in CUSPS else outside[label]
             results.append(replace(solution, condition=seen, equation=border.outside, pieces=shown))
         if runner.interrupted:
             raise Interrupted(tuple(results))
@@ -259,20 +269,63 @@ def _solved(
 def _closed(
     condition: Condition, found: Conditions, runner: Runner, limits: Limits, budget: Budget
 ) -> Solution:
-    """The solution set of a condition that says which polynomials vanish.
+    """The solution set of a condition that says which polynomials vanish."""
+    return _solution(condition, found, [(path, ()) for path in condition.polynomials], runner, limits, budget)
 
-    Its parts are few: where the time on the clock is limited, each may use all of it.
+
+def _cusps(
+    condition: Condition, found: Conditions, runner: Runner, limits: Limits, budget: Budget
+) -> Solution:
+    """Where the null motion is tangent to condition (4) or (5)."""
+    tangent = replace(
+        condition,
+        label=f"cusps {condition.label}",
+        statement=f"{condition.statement}, its one null motion tangent",
+        latex_statement=rf"{condition.latex_statement}\text{{, its one null motion tangent}}",
+        alternatives=None,
+    )
+    try:
+        with current().part(limits.seconds, limits.memory_mb):
+            places = tangencies(found.equation, condition.label)
+    except Undecided as reason:
+        return Solution(tangent, found.equation, (), (str(reason),))
+    parts = [(path, place.exclusions) for place in places for path in place.alternatives]
+    solution = _solution(tangent, found, parts, runner, limits, budget)
+    held = max((len(place.held) for place in places), default=0)
+    whole = found.equation.n - 1 + found.equation.space.varying - held
+    if any(p.extent.at_least >= whole for p in solution.pieces):
+        resting = f"{tangent.types}; of dimension {whole}: self-motions, the {ROLES[condition.label]}s rest"
+        solution = replace(solution, condition=replace(tangent, types=resting))
+    return solution
+
+
+def _solution(
+    condition: Condition,
+    found: Conditions,
+    parts: Sequence[tuple[Equations, tuple[Equations, ...]]],
+    runner: Runner,
+    limits: Limits,
+    budget: Budget,
+) -> Solution:
+    """The union of closed parts, each off its exclusions.
+
+    They are few: where the time on the clock is limited, each may use all of it.
     """
     seconds = limits.seconds if limits.clock is None else limits.clock
     space = found.equation.space
-    feasible = RealSystem(space.ring, (), space.exclusions, space.positive, space.nonnegative)
     names = Names(space.points, found.equation.values)
-    tasks = [
-        LocusTask(path, space.equations, feasible, names, seconds, limits.memory_mb)
-        for path in condition.polynomials
-    ]
+    tasks = []
+    for path, exclusions in parts:
+        off = (*space.exclusions, *exclusions)
+        feasible = RealSystem(space.ring, (), off, space.positive, space.nonnegative)
+        tasks.append(LocusTask(path, space.equations, feasible, names, seconds, limits.memory_mb))
     solved = runner.map(solve_locus, tasks, f"condition ({condition.label})", budget)
-    pieces = [p for part in solved for p in part.pieces if not p.verdict.is_no]
+    pieces = [
+        replace(p, exclusions=exclusions)
+        for part, (_, exclusions) in zip(solved, parts, strict=True)
+        for p in part.pieces
+        if not p.verdict.is_no
+    ]
     doubts = [part.doubt for part in solved if part.doubt]
     doubts += [p.verdict.reason for p in pieces if p.verdict.is_undecided]
     known = weakest(*(part.certainty for part in solved))

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from singsym.cli.mechanisms import complaint, placed, read
-from singsym.cli.screen import UserError, emit_data, emit_page, progress_shown, say, writable
+from singsym.cli.screen import UserError, drawable, emit_data, emit_page, progress_shown, say
 from singsym.cli.singularities import UNDECIDED
 from singsym.mechanism import Mechanism, MechanismError
 
@@ -35,7 +35,7 @@ def run_follow(chosen: argparse.Namespace) -> int:
     mechanism = read(chosen)
     placed(mechanism, chosen.formulation)
     if chosen.output:
-        writable(Path(chosen.output))
+        drawable(Path(chosen.output))
     try:
         found = _followed(mechanism, chosen)
         if chosen.output:

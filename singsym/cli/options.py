@@ -131,6 +131,15 @@ def _at_least_one(text: str) -> int:
     return int(text)
 
 
+def _class_number(text: str) -> str:
+    from singsym.classes.taxonomy.types import feasible_classes
+
+    count = len(feasible_classes(3))
+    if not text.isdecimal() or not 1 <= int(text) <= count:
+        raise argparse.ArgumentTypeError(f"found {text!r}; expected the number of a class, 1 to {count}")
+    return text
+
+
 def work(command: argparse.ArgumentParser) -> None:
     """What governs the work."""
     command.add_argument(
@@ -171,7 +180,7 @@ def _workers() -> str:
 
 def labels(command: argparse.ArgumentParser) -> None:
     """The conditions to solve."""
-    labels = ("4", "5", "i", "ii", "iii", "iv", "v", "vi", "vii", "viii")
+    labels = ("4", "5", "i", "ii", "iii", "iv", "v", "vi", "vii", "viii", "cusps")
     command.add_argument(
         "labels", nargs="+", metavar="CONDITION", choices=labels, help="of " + ", ".join(labels)
     )
@@ -190,6 +199,11 @@ def configuration(command: argparse.ArgumentParser) -> None:
         "--distance",
         action="store_true",
         help="how far away the nearest singularity of each type is, and which way leads away",
+    )
+    command.add_argument(
+        "--self-motions",
+        action="store_true",
+        help="whether null motions are finite, the inputs or the outputs at rest; the chain may be redundant",
     )
 
 
@@ -254,6 +268,7 @@ def shown(command: argparse.ArgumentParser) -> None:
     choice.add_argument(
         "--class",
         dest="shown",
+        type=_class_number,
         metavar="NUMBER",
         help="a class, one file for each of its families, as --class 4",
     )

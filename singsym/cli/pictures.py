@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from singsym.cli.mechanisms import placed, read
-from singsym.cli.screen import UserError, writable
+from singsym.cli.screen import UserError, drawable, writable
 from singsym.cli.singularities import UNDECIDED, classified
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ def run_plot(chosen: argparse.Namespace) -> int:
     Of a class each family has a figure; where there are several the files are numbered.
     """
     path = Path(chosen.output or f"{Path(chosen.mechanism).stem}.svg")
-    writable(path)
+    drawable(path)
     try:
         pictures, code = _pictures(chosen)
         numbered = [path.with_stem(f"{path.stem}-{k}") for k in range(1, len(pictures) + 1)]

@@ -30,6 +30,17 @@ def writable(path: Path) -> None:
         raise UserError(f"{path} cannot be written: there is no folder {path.parent}")
 
 
+def drawable(path: Path) -> None:
+    """The same of a picture, whose ending says its format."""
+    from singsym.output.figures.style import picture_path
+
+    writable(path)
+    try:
+        picture_path(path)
+    except ValueError as error:
+        raise UserError(str(error)) from None
+
+
 def say(text: str) -> None:
     """A message on stderr, unless the user wants none."""
     if talk.get() != "quiet":

@@ -10,7 +10,7 @@ import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 from singsym.cli.mechanisms import complaint, placed, read
 from singsym.cli.screen import UserError, emit_data, emit_latex, emit_page, writable
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from singsym.classes.classify import Limits
     from singsym.classes.result import Classification
     from singsym.classes.solve import Solution
+    from singsym.output.page import Block
 
 UNDECIDED = 3
 
@@ -151,18 +152,19 @@ def _emit_classification(result: Classification, chosen: argparse.Namespace) -> 
 def run_solve(chosen: argparse.Namespace) -> int:
     """`singsym solve MECHANISM CONDITION ...`; what is known when it is interrupted is printed too."""
     from singsym.classes.running.runner import Interrupted
-    from singsym.classes.solve import solve
+    from singsym.classes.solve import CUSPS, solve
     from singsym.cli.screen import progress_shown
     from singsym.elimination import engines
 
     mechanism = read(chosen)
     placed(mechanism, chosen.formulation)
     _resumable(chosen)
+    asked = [own for label in chosen.labels for own in (CUSPS if label == "cusps" else (label,))]
     try:
         with engines.use(*chosen.engines), progress_shown(), _cluster(chosen) as executor:
             found = solve(
                 mechanism,
-                *dict.fromkeys(chosen.labels),
+                *dict.fromkeys(asked),
                 formulation=chosen.formulation,
                 workers=chosen.workers,
                 executor=executor,
@@ -232,36 +234,47 @@ def _resumable(chosen: argparse.Namespace) -> None:
 
 
 def run_at(chosen: argparse.Namespace) -> int:
-    """`singsym at MECHANISM --config FILE`."""
-    from singsym.classes.configuration.at import at
-    from singsym.classes.configuration.given_values import Given
-
-    mechanism = read(chosen)
+    """`singsym at MECHANISM --config FILE`; of a redundant chain its self-motions alone."""
+    mechanism = read(chosen, redundant=chosen.self_motions)
     placed(mechanism, chosen.formulation)
-    distance = None
     try:
-        given = Given.from_file(chosen.config)
-        found = at(
-            mechanism, given, formulation=chosen.formulation, tolerance=chosen.tolerance, file=chosen.config
-        )
-        if chosen.distance:
-            from singsym.motion.distance import singularity_distance
-
-            distance = singularity_distance(mechanism, found, formulation=chosen.formulation)
+        return _examined(mechanism, chosen)
     except MechanismError as error:
         raise UserError(complaint(error.problems)) from None
     except OSError as error:
         raise UserError(f"{chosen.config} cannot be read: {error.strerror}") from None
+
+
+def _examined(mechanism: Mechanism, chosen: argparse.Namespace) -> int:
+    from singsym.classes.configuration.at import at
+    from singsym.classes.configuration.given_values import Given
+    from singsym.classes.configuration.self_motions import self_motions
+    from singsym.motion.distance import singularity_distance
+    from singsym.output.motion.distance_page import distance_data, distance_page
+    from singsym.output.motion.self_motion_page import self_motion_data, self_motion_page
+    from singsym.output.plain_data import analysis_data
+    from singsym.output.text import analysis_page
+
+    given = Given.from_file(chosen.config)
+    how = {"formulation": chosen.formulation, "file": chosen.config}
+    page: list[Block] = []
+    data: dict[str, Any] = {"mechanism": mechanism.name}
+    is_open = False
+    if not is_redundant(mechanism):
+        found = at(mechanism, given, tolerance=chosen.tolerance, **how)
+        page, data = [*analysis_page(mechanism.name, found)], analysis_data(mechanism.name, found)
+        is_open = bool(found.undecided)
+        if chosen.distance:
+            distance = singularity_distance(found)
+            page += distance_page(distance)
+            data["nearest"] = distance_data(distance)
+    if chosen.self_motions:
+        motions = self_motions(mechanism, given, **how)
+        page += self_motion_page(motions)
+        data["self_motions"] = self_motion_data(motions)
+        is_open = is_open or any(m.dimension is None for m in motions)
     if chosen.format == "json":
-        from singsym.output.motion.distance_page import distance_data
-        from singsym.output.plain_data import analysis_data
-
-        more = {} if distance is None else {"nearest": distance_data(distance)}
-        emit_data({**analysis_data(mechanism.name, found), **more})
+        emit_data(data)
     else:
-        from singsym.output.motion.distance_page import distance_page
-        from singsym.output.text import analysis_page
-
-        more_blocks = () if distance is None else distance_page(distance)
-        emit_page((*analysis_page(mechanism.name, found), *more_blocks))
-    return UNDECIDED if found.undecided else 0
+        emit_page(tuple(page))
+    return UNDECIDED if is_open else 0

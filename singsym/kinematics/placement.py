@@ -5,7 +5,7 @@ Source: Zlatanov, Fenton, Benhabib (1998), section 2.4, the loop equations I(q) 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -74,6 +74,17 @@ class JointValue:
     scale: Polynomial | None = None
     length: Polynomial | None = None
     square: Polynomial | None = None
+
+    def rate(self, slopes: Callable[[Polynomial], Coordinates]) -> Coordinates:
+        """Derivatives of the value along some directions, times what has no zero on the feasible set.
+
+        slopes: the derivatives of a polynomial along these directions.
+        """
+        if self.cosine is not None and self.sine is not None:
+            c, s = self.cosine, self.sine
+            return tuple(c * b - s * a for a, b in zip(slopes(c), slopes(s), strict=True))
+        side = self.square if self.length is None else self.length
+        return () if side is None else tuple(slopes(side))
 
 
 @dataclass(frozen=True)

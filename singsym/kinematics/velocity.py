@@ -5,7 +5,7 @@ Source: Zlatanov, Fenton, Benhabib (1998), (1)-(3); an example is (6).
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal
@@ -52,6 +52,8 @@ class VelocityEquation:
     matrix: L, one row for each entry of `rows`, one column for each of `columns`.
     N: the number of 1-DOF joints; n: the mobility.  L has N rows, more where over-constrained.
     values: what the formulation knows of the joints' values, by column label.
+    outputs: for each output column a name, as `C.x` or that of a joint, and the value whose rate it is; None
+        where the formulation has no such coordinate, as of rotations of a link.
     architecture: which joints are between which links; None where only L is given.
     """
 
@@ -62,6 +64,7 @@ class VelocityEquation:
     N: int
     n: int
     values: Mapping[str, JointValue] = field(default_factory=dict, compare=False)
+    outputs: tuple[tuple[str, JointValue | None], ...] = field(default=(), compare=False)
     architecture: Architecture | None = field(default=None, compare=False)
 
     def _without(self, *roles: Role) -> PolynomialMatrix:
@@ -202,6 +205,7 @@ def velocity_equation(mechanism: Mechanism, formulation: str = "auto") -> Veloci
         mechanism.N,
         mechanism.n,
         placed.values,
+        tuple(_output_values(mechanism, placed)),
         _architecture(mechanism, placed),
     )
 
@@ -230,6 +234,19 @@ def _architecture(mechanism: Mechanism, placed: Placement) -> Architecture:
 
 def _components(output: Output) -> tuple[str, ...]:
     return (output.column,) if isinstance(output, JointRate) else output.components
+
+
+def _output_values(mechanism: Mechanism, placed: Placement) -> Iterator[tuple[str, JointValue | None]]:
+    """What each component of an output is the rate of."""
+    for output in mechanism.outputs:
+        if isinstance(output, JointRate):
+            yield output.column, placed.values.get(output.column)
+            continue
+        own = dict(zip("xyz", placed.link_points.get((output.link, output.point), ()), strict=False))
+        for component in output.components:
+            axis = component.removeprefix("v")
+            value = JointValue(length=own[axis]) if axis in own else None
+            yield f"{output.point}.{axis}" if value else f"{output.link}.{component}", value
 
 
 def _output_rows(

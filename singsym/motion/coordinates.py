@@ -13,10 +13,8 @@ import numpy as np
 from flint import arb
 
 from singsym.classes.realisation.certified_configuration import joint_ball
-from singsym.kinematics.formulations import place
 from singsym.kinematics.placement import JointValue
 from singsym.kinematics.velocity import VelocityEquation
-from singsym.mechanism.model import JointRate, Mechanism, PointVelocity
 from singsym.polynomials import Polynomial
 from singsym.polynomials.compiled_map import CompiledMap, Floats
 
@@ -93,19 +91,9 @@ def joint_space(equation: VelocityEquation, length: float) -> Coordinates | None
     return Coordinates(equation, labels, values, units)
 
 
-def output_space(mechanism: Mechanism, equation: VelocityEquation, formulation: str) -> Coordinates | None:
+def output_space(equation: VelocityEquation) -> Coordinates | None:
     """The coordinates and joint values whose rates are the output; None where it has rotations of a link."""
-    placed = place(mechanism, formulation)
-    labels: list[str] = []
-    values: list[JointValue] = []
-    for output in mechanism.outputs:
-        if isinstance(output, JointRate) and output.column in placed.values:
-            labels.append(output.column)
-            values.append(placed.values[output.column])
-        elif isinstance(output, PointVelocity) and (output.link, output.point) in placed.link_points:
-            own = dict(zip("xyz", placed.link_points[output.link, output.point], strict=False))
-            labels += [f"{output.point}.{axis}" for axis in output.components]
-            values += [JointValue(length=own[axis]) for axis in output.components]
-        else:
-            return None
-    return Coordinates(equation, tuple(labels), tuple(values), (1.0,) * len(labels))
+    values = tuple(value for _, value in equation.outputs if value is not None)
+    if not values or len(values) < len(equation.outputs):
+        return None
+    return Coordinates(equation, tuple(label for label, _ in equation.outputs), values, (1.0,) * len(values))

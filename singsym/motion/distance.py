@@ -17,7 +17,6 @@ from singsym.classes.configuration.at import Analysis
 from singsym.classes.configuration.locate import sizes_of_coordinates
 from singsym.classes.taxonomy.types import Defects, SingularityType
 from singsym.kinematics.velocity import VelocityEquation
-from singsym.mechanism.model import Mechanism
 from singsym.mechanism.problems import MechanismError, Problem
 from singsym.motion.arithmetic import Arithmetic
 from singsym.motion.coordinates import Coordinates, joint_space, output_space
@@ -90,9 +89,7 @@ class SingularityDistance:
     remarks: tuple[str, ...]
 
 
-def singularity_distance(
-    mechanism: Mechanism, found: Analysis, *, formulation: str = "auto", seed: int = 0
-) -> SingularityDistance:
+def singularity_distance(found: Analysis, *, seed: int = 0) -> SingularityDistance:
     """The distances of a configuration that `at` has examined.
 
     The nearest singularities are looked for numerically, among those that a straight line of the inputs, or
@@ -104,7 +101,7 @@ def singularity_distance(
     >>> from singsym.mechanism import load
     >>> crank = load("slider-crank")
     >>> given = {"joints": {"A": "60 deg", "P": "(1 + sqrt(33)) / 2"}}
-    >>> there = singularity_distance(crank, at(crank, given))
+    >>> there = singularity_distance(at(crank, given))
     >>> round(there.joint["RI"].distance, 6), there.joint["RI"].certified, there.clear > 0.1
     (1.047198, True, True)
     """
@@ -115,7 +112,7 @@ def singularity_distance(
         given = "inputs without known values" if joint is None else "conditions that are not written out"
         expected = "inputs whose values are coordinates, and conditions as polynomials"
         raise MechanismError([Problem("distance", given, expected)])
-    output = output_space(mechanism, equation, formulation)
+    output = output_space(equation)
     point = np.array([float(found.values[name]) for name in equation.space.ring.names])
     nearest = {}
     for name, space in (("joint", joint), ("output", output)):

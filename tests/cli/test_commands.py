@@ -184,6 +184,41 @@ def test_plot_and_report_write_files(capsys, tmp_path, monkeypatch):
     assert main(["plot", "slider-crank", "-o", "none/c.png"]) == 2
 
 
+def test_what_cannot_be_drawn_is_refused_before_the_work(capsys, tmp_path, monkeypatch):
+    """No class has the number 22, no picture the ending `.foo`: nothing is classified or followed."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("singsym.classes.classify.classify", lambda *given, **options: pytest.fail("works"))
+    monkeypatch.setattr("singsym.motion.follow.follow", lambda *given, **options: pytest.fail("works"))
+    for number in ("0", "22", "x"):
+        with pytest.raises(SystemExit) as exit_:
+            main(["plot", "slider-crank", "--class", number])
+        assert exit_.value.code == 2
+        assert "1 to 21" in capsys.readouterr().err
+    assert main(["plot", "slider-crank", "--class", "1", "-o", "c.foo"]) == 2
+    Path("way.csv").write_text("t,A\n0,0\n1,1\n")
+    assert main(["follow", "slider-crank", "way.csv", "-o", "c.foo"]) == 2
+    assert capsys.readouterr().err.count("expected a file name that ends in") == 2
+
+
+def test_cusps_and_self_motions(capsys, tmp_path):
+    """Both solution sets of cusps; a redundant arm with its hand at rest has a curve of configurations."""
+    found = data(capsys, "solve", "orthogonal-3r", "cusps", "--workers", "1")["solutions"]
+    assert [(s["condition"], s["verdict"]) for s in found] == [("cusps 4", "no"), ("cusps 5", "yes")]
+    arm, here = tmp_path / "arm.toml", tmp_path / "here.toml"
+    arm.write_text(
+        'name = "arm"\ntitle = "arm"\nsource = "own"\ninputs = ["A", "B", "C"]\noutput = {velocity = "D"}\n'
+        "[links]\nground = {points = {A = [0, 0]}}\nAB = 2\nBC = 2\nCD = 1\n"
+        '[joints]\nA = "R"\nB = "R"\nC = "R"'
+    )
+    here.write_text('[joints]\nA = "30 deg"\nB = "60 deg"\nC = 0')
+    assert main(["at", str(arm), "--config", str(here)]) == 2
+    inputs, outputs = data(capsys, "at", str(arm), "--config", str(here), "--self-motions")["self_motions"]
+    assert (inputs["dimension"], outputs["dimension"], outputs["null_motions"]) == (0, 1, 1)
+    here.write_text("[joints]\nA = 0.3")
+    assert main(["at", "slider-crank", "--config", str(here), "--self-motions"]) == 3
+    assert "Self-motion undecided, with the inputs at rest" in capsys.readouterr().out
+
+
 def test_set_changes_a_parameter_within_its_range(capsys):
     assert data(capsys, "show", "zlatanov-hybrid", "--set", "a=3/2")["parameters"] == []
     for setting in ("a=3", "b=1", "a", "a=__import__('os')"):

@@ -21,7 +21,7 @@ def crank_at(degrees: int) -> SingularityDistance:
     """The slider-crank, crank 1 and rod 3, with its slide to the right."""
     crank = load("slider-crank")
     x = math.cos(math.radians(degrees)) + math.sqrt(9 - math.sin(math.radians(degrees)) ** 2)
-    return singularity_distance(crank, at(crank, {"joints": {"A": f"{degrees} deg", "P": x}}))
+    return singularity_distance(at(crank, {"joints": {"A": f"{degrees} deg", "P": x}}))
 
 
 @pytest.mark.parametrize(("degrees", "way"), [(60, 1.0), (100, -1.0)])
@@ -48,7 +48,7 @@ def test_pumas_elbow_shoulder_and_wrist_by_its_determinant() -> None:
     elbow where tan(J3) = -d4/a3, nearest in J3 alone."""
     arm = load("puma560")
     joints = {"J1": 0.3, "J2": 0.4, "J3": 0.5, "J4": 0.6, "J5": 0.1, "J6": 0.8}
-    found = singularity_distance(arm, at(arm, {"joints": joints}))
+    found = singularity_distance(at(arm, {"joints": joints}))
     near = found.joint["IO"]
     assert near.distance == pytest.approx(0.1, abs=1e-9)
     assert near.away == pytest.approx({label: float(label == "J5") for label in joints}, abs=1e-9)
@@ -70,7 +70,7 @@ def test_no_sample_contradicts_the_bounds() -> None:
     mode = linkage.modes(linkage.inputs)[0]
     q = linkage.configurations({"A": 1.6, "E": -2.0}, mode)
     start = dict(zip(linkage.names, q.tolist(), strict=True))
-    found = singularity_distance(five_bar, at(five_bar, {"variables": start}))
+    found = singularity_distance(at(five_bar, {"variables": start}))
     assert found.clear is not None
     r = found.clear
     a, e = np.meshgrid(np.linspace(1.6 - r, 1.6 + r, 15), np.linspace(-2 - r, -2 + r, 15))

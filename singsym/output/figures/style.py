@@ -73,15 +73,22 @@ class Picture:
 
     def save(self, path: str | Path) -> Path:
         """Write to a file; its ending says the format (svg, pdf, png and what else matplotlib writes)."""
-        target = Path(path)
-        known = self.figure.canvas.get_supported_filetypes()
-        if target.suffix[1:].lower() not in known:
-            raise ValueError(f"{target.name}: expected a file name that ends in {', '.join(sorted(known))}")
+        target = picture_path(path)
         self.figure.savefig(target, dpi=160)
         return target
 
     def _repr_svg_(self) -> str:
         return self.svg()
+
+
+def picture_path(path: str | Path) -> Path:
+    """Where a picture can be written; raises `ValueError` for an ending that says no known format."""
+    from matplotlib.backend_bases import FigureCanvasBase
+
+    target, known = Path(path), FigureCanvasBase.get_supported_filetypes()
+    if target.suffix[1:].lower() not in known:
+        raise ValueError(f"{target.name}: expected a file name that ends in {', '.join(sorted(known))}")
+    return target
 
 
 def paper(axes: Any, width: float, height: float) -> Any:

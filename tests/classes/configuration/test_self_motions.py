@@ -1,0 +1,79 @@
+"""Self-motions of configurations in which it is known by hand what moves."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from singsym.classes.configuration.self_motions import SelfMotion, self_motions
+from singsym.mechanism import Choice, load
+
+ARM = """
+name = "arm"
+title = "Planar arm with a joint too many"
+source = "own"
+inputs = ["A", "B", "C"]
+output = {{ velocity = "D" }}
+[links]
+ground = {{ points = {{ A = [0, 0] }} }}
+AB = {}
+BC = 2
+CD = 1
+[joints]
+A = "R"
+B = "R"
+C = "R"
+"""
+
+
+def of(name: str, given: dict[str, Any]) -> list[tuple[int | None, int | None]]:
+    """Null motions and dimension, with the inputs and with the outputs at rest."""
+    return [(m.null_motions, m.dimension) for m in self_motions(load(name), given)]
+
+
+def arm(folder: Path, first: int, *degrees: int) -> SelfMotion:
+    """The redundant arm's self-motion with its hand at rest."""
+    file = folder / "arm.toml"
+    file.write_text(ARM.format(first))
+    given = {"joints": {j: f"{x} deg" for j, x in zip("ABC", degrees, strict=True)}}
+    return self_motions(load(file, choice=Choice(redundant=True)), given)[1]
+
+
+@pytest.mark.parametrize(
+    ("first", "degrees", "null_motions", "dimension"),
+    [(2, (30, 60, 0), 1, 1), (2, (30, 0, 0), 2, 0), (3, (0, 0, 180), 2, 1)],
+    ids=["regular", "stretched", "a change point"],
+)
+def test_a_redundant_arm(
+    tmp_path: Path, first: int, degrees: tuple[int, ...], null_motions: int, dimension: int
+) -> None:
+    """With its hand at rest the arm is a four-bar: a curve; stretched it cannot move at all.
+
+    Links 3, 2, 1 with the last folded back: the hand is 4 away, 4 + 1 = 3 + 2, Grashof's change point, in
+    whose flat configuration two branches of the four-bar's curve cross.
+    """
+    found = arm(tmp_path, first, *degrees)
+    assert (found.null_motions, found.dimension, found.certainty) == (null_motions, dimension, "proven")
+
+
+def test_five_bar_with_coincident_cranks() -> None:
+    """B = D and equal rods: C turns about B while A and E rest; C rests with all, A, B, C not in line."""
+    place = ["1/2", "sqrt(15)/2"]
+    folded = {"points": {"B": place, "D": place, "C": ["7/2", "sqrt(15)/2"]}}
+    assert of("five-bar", folded) == [(1, 1), (0, 0)]
+
+
+def test_null_motions_that_are_infinitesimal() -> None:
+    """A dead point's slide rests to first order only, as do a flat parallelogram's crank and follower."""
+    assert of("slider-crank", {"points": {"B": [1, 0], "C": [4, 0]}}) == [(0, 0), (1, 0)]
+    flat = {"points": {"B": [1, 0], "C": [3, 0]}}
+    assert of("parallelogram", flat) == [(1, 0), (1, 0)]
+
+
+def test_values_in_decimals_are_undecided() -> None:
+    """They do not close the loops exactly."""
+    found = self_motions(load("slider-crank"), {"joints": {"A": 0.3}})
+    assert [m.dimension for m in found] == [None, None]
+    assert "exactly" in found[0].reason
