@@ -14,14 +14,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from flint import arb, arb_mat, arb_poly, ctx, fmpq, fmpq_mat, fmpq_mpoly
+from flint import arb, arb_mat, arb_poly, ctx, fmpq, fmpq_mat
 
-from singsym.certificates.checker.points import ball, chart_of, check_all, real_roots
+from singsym.certificates.checker.balls import Compiled, is_off_zero, preconditioned
+from singsym.certificates.checker.points import chart_of, check_all, real_points
 from singsym.certificates.checker.polynomials import Rejected, determinant, polynomial, rational, remainder
 from singsym.certificates.checker.rules import derive
 from singsym.certificates.checker.sets import RealSet, chosen, listed, power
 
-BITS, ROOT_BITS = 90, 2048
+BITS, ROOT_BITS = 90, 512
 UNIT = 10**9
 """Numbers of tubes are whole multiples of one over this."""
 
@@ -47,7 +48,7 @@ def components(at: RealSet, data: Any) -> int:
             for one, two in zip(loop, (*loop[1:], loop[0]), strict=True):
                 if not (two.holds(one.end) and one.holds(two.start)):
                     raise Rejected(f"loop {k}: a tube does not lead into the next one")
-            if not any(all(_is_off_zero(unit, tube.start) for unit in at.units) for tube in loop):
+            if not any(all(is_off_zero(unit, tube.start) for unit in at.units) for tube in loop):
                 raise Rejected(f"loop {k}: no point of it is seen to be in the set")
             for other in loops[:k]:
                 if not all(tube.misses(loop[0].start) for tube in other):
@@ -56,29 +57,6 @@ def components(at: RealSet, data: Any) -> int:
             if not any(tube.holds(point) for loop in loops for tube in loop):
                 raise Rejected("a critical point lies in no tube")
     return len(loops)
-
-
-def _is_off_zero(f: fmpq_mpoly, values: Sequence[arb]) -> bool:
-    return not Compiled(f).at(values).contains(0)
-
-
-class Compiled:
-    """A polynomial to be evaluated at balls again and again."""
-
-    def __init__(self, f: fmpq_mpoly) -> None:
-        self.terms = [
-            (arb(c), [i for i, e in enumerate(exponents) for _ in range(int(e))])
-            for exponents, c in f.terms()
-        ]
-
-    def at(self, values: Sequence[Any]) -> Any:
-        """The value at a point, of balls or of polynomials over these."""
-        total = values[0] * 0
-        for term, places in self.terms:
-            for i in places:
-                term = term * values[i]
-            total = total + term
-        return total
 
 
 @dataclass(frozen=True)
@@ -144,11 +122,7 @@ class Tubes:
         box = [x if i == along else x + spread for i, x in enumerate(tube.line(middle + half))]
         jacobian = [[g.at(box) for g in row] for row in self.gradients]
         square = arb_mat([[row[i] for i in others] for row in jacobian])
-        try:
-            inverse = square.mid().inv().mid()
-        except ZeroDivisionError:
-            raise Rejected("a tube: the equations are dependent in its middle") from None
-        defect = inverse * square - arb_mat([[arb(int(i == j)) for j in others] for i in others])
+        inverse, defect = preconditioned(square)
         line = [arb_poly([c, d]) for c, d in zip(tube.line(middle), slope, strict=True)]
         line[along] = arb_poly([middle, 1])
         series = [f.at(line).coeffs() for f in self.functions]
@@ -258,6 +232,5 @@ def _critical_points(at: RealSet, data: Any) -> list[list[arb]]:
         form, minimal, coordinates = chart_of(there, entry)
         check_all(there, form, minimal, coordinates, power(entry))
         with ctx.workprec(ROOT_BITS):
-            roots = real_roots(minimal)
-            found += [[ball(coordinates[name], root) for name in at.variables] for root in roots]
+            found += real_points(minimal, [coordinates[name] for name in at.variables])
     return found

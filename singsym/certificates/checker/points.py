@@ -9,9 +9,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from flint import arb, ctx, fmpq_mpoly, fmpq_poly
+from flint import arb, ctx, fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly
 
-from singsym.certificates.checker.polynomials import Rejected, polynomial, rational, remainder
+from singsym.certificates.checker.polynomials import (
+    Rejected,
+    determinant,
+    polynomial,
+    rational,
+    remainder,
+    ring,
+)
 from singsym.certificates.checker.ranks import Defects, is_possible, types_of
 from singsym.certificates.checker.sets import MATRICES, RealSet, Statement, listed, power
 
@@ -23,13 +30,13 @@ def points(at: RealSet, about: Statement, line: Mapping[str, Any]) -> dict[str, 
 
     form: a linear polynomial u; minimal: rational coefficients, constant term first, of a polynomial m
         without double roots; coordinates: of each variable those of a polynomial r.
-    Powers of m(u) and of x - r(u) have remainder zero by the equations, so that each point of the set is r
-    of a root; the roots at which an equation does not vanish, or a unit does, are left out.
+    Powers of m(u) and of x m'(u) - r(u) have remainder zero by the equations, so that each point of the set
+    is r / m' of a root; the roots at which an equation does not vanish, or a unit does, are left out.
     """
     form, minimal, coordinates = chart_of(at, line)
     check_all(at, form, minimal, coordinates, power(line))
     chart = _Chart(at, minimal, coordinates)
-    if (chart.value(form, minimal) - fmpq_poly([0, 1])) % minimal:
+    if (chart.value(form, minimal) - fmpq_poly([0, 1]) * minimal.derivative() ** degree(form)) % minimal:
         raise Rejected("form: it is not the root at its points")
     there = minimal
     for equation in at.generators:
@@ -79,7 +86,8 @@ def check_all(
         return sum((p * c for p, c in zip(powers, f.coeffs(), strict=False)), start=at.context.constant(0))
 
     gens = dict(zip(at.context.names(), at.context.gens(), strict=True))
-    for f in (put(minimal), *(gens[name] - put(r) for name, r in coordinates.items())):
+    below = put(minimal.derivative())
+    for f in (put(minimal), *(gens[name] * below - put(r) for name, r in coordinates.items())):
         product = at.context.constant(1)
         for _ in range(exponent):
             product = remainder(product * f, at.equations)
@@ -87,21 +95,30 @@ def check_all(
             raise Rejected("there may be more points: a power is not seen to be in the ideal")
 
 
+def degree(*polynomials: fmpq_mpoly) -> int:
+    """The least even number that is not below the degree of any of these."""
+    degrees = [int(sum(exponents)) for f in polynomials for exponents in f.monoms()]
+    return -(-max(degrees, default=0) // 2) * 2
+
+
 class _Chart:
-    """The points r(u) of a set, for the roots u of a polynomial."""
+    """The points r(u) / m'(u) of a set, for the roots u of a polynomial m."""
 
     def __init__(self, at: RealSet, minimal: fmpq_poly, coordinates: Mapping[str, fmpq_poly]) -> None:
         self.at = at
-        zero = fmpq_poly([])
-        self.images = [coordinates.get(name, zero) for name in at.context.names()]
+        self.images = [*(coordinates[name] for name in at.context.names()), minimal.derivative()]
 
-    def value(self, f: fmpq_mpoly, modulus: fmpq_poly) -> fmpq_poly:
-        """f at r(u), modulo a polynomial in u."""
+    def value(self, f: fmpq_mpoly, modulus: fmpq_poly, even: int | None = None) -> fmpq_poly:
+        """f at its points, modulo a polynomial in u, times a power of m' that is not below its degree.
+
+        even: which one.  Even powers are positive, as m' vanishes at no root.
+        """
+        even = degree(f) if even is None else even
         total = fmpq_poly([])
         powers: dict[tuple[int, int], fmpq_poly] = {}
         for exponents, coefficient in f.terms():
             term = fmpq_poly([coefficient])
-            for i, e in enumerate(exponents):
+            for i, e in enumerate((*map(int, exponents), even - int(sum(exponents)))):
                 for k in range(1, e + 1):
                     if (i, k) not in powers:
                         before = powers[i, k - 1] if k > 1 else fmpq_poly([1])
@@ -143,6 +160,12 @@ def ball(value: fmpq_poly, root: arb) -> arb:
     return total
 
 
+def real_points(minimal: fmpq_poly, coordinates: Sequence[fmpq_poly]) -> list[list[arb]]:
+    """Balls around the real points of a chart."""
+    slope = minimal.derivative()
+    return [[ball(r, root) / ball(slope, root) for r in coordinates] for root in real_roots(minimal)]
+
+
 def _sign(value: fmpq_poly, root: arb) -> int:
     """The sign of a value at a root, 0 where it is not seen."""
     total = ball(value, root)
@@ -152,7 +175,8 @@ def _sign(value: fmpq_poly, root: arb) -> int:
 def _defects(chart: _Chart, about: Statement, factor: fmpq_poly) -> Defects:
     """The defects at the roots of an irreducible polynomial, one of them real, which are all alike."""
     at = chart.at
-    values = [[chart.value(entry, factor) for entry in row] for row in at.matrix]
+    even = degree(*(entry for row in at.matrix for entry in row))
+    values = [[chart.value(entry, factor, even) for entry in row] for row in at.matrix]
     found = []
     for name in MATRICES:
         columns = at.columns_of(name)
@@ -166,17 +190,23 @@ def _defects(chart: _Chart, about: Statement, factor: fmpq_poly) -> Defects:
 
 def _rank(rows: Sequence[Sequence[fmpq_poly]], factor: fmpq_poly) -> int:
     """The rank over the field Q[u]/(factor): that of balls at a root, where the bordering minors vanish."""
+    field = ring(["u"])
+    *exact, (modulus,) = [[_in(field, value) for value in row] for row in (*rows, [factor])]
     bits = 256
     while bits <= MOST_BITS:
         with ctx.workprec(bits):
             own, columns = _pivots(rows, real_roots(factor)[0])
         others = [i for i in range(len(rows)) if i not in own]
         left = [j for j in range(len(rows[0]) if rows else 0) if j not in columns]
-        borders = (([*own, i], [*columns, j]) for i in others for j in left)
-        if all(not _minor(rows, r, c, factor) for r, c in borders):
+        borders = ([[exact[a][b] for b in (*columns, j)] for a in (*own, i)] for i in others for j in left)
+        if all(not determinant(block, [modulus]) for block in borders):
             return len(own)
         bits *= 4
     raise Rejected("the rank of a matrix at a point is not seen")
+
+
+def _in(field: fmpq_mpoly_ctx, f: fmpq_poly) -> fmpq_mpoly:
+    return field.from_dict({(k,): c for k, c in enumerate(f.coeffs()) if c})
 
 
 def _pivots(rows: Sequence[Sequence[fmpq_poly]], root: arb) -> tuple[list[int], list[int]]:
@@ -200,18 +230,3 @@ def _pivots(rows: Sequence[Sequence[fmpq_poly]], root: arb) -> tuple[list[int], 
                 left[k] = [a - scale * b for a, b in zip(row, left[i], strict=True)]
         own.append(i)
         columns.append(j)
-
-
-def _minor(
-    rows: Sequence[Sequence[fmpq_poly]], own: Sequence[int], columns: Sequence[int], factor: fmpq_poly
-) -> fmpq_poly:
-    """A minor modulo a polynomial, expanded by its first row."""
-    if not own:
-        return fmpq_poly([1])
-    total = fmpq_poly([])
-    for k, j in enumerate(columns):
-        entry = rows[own[0]][j]
-        if entry:
-            rest = _minor(rows, own[1:], [*columns[:k], *columns[k + 1 :]], factor)
-            total = total + entry * rest * (-1) ** k
-    return total % factor

@@ -9,6 +9,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 from functools import cache
+from itertools import cycle
+from operator import gt
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz
 
@@ -91,14 +93,16 @@ def remainder(f: fmpq_mpoly, divisors: Iterable[fmpq_mpoly]) -> fmpq_mpoly:
     >>> remainder(x**2 * y, [x - y, y**2 - 1])
     y
     """
-    divisors = [d for d in divisors if d]
-    changed = bool(f)
-    while changed and f:
-        changed = False
-        for divisor in divisors:
+    pairs = [(d, d.monomial(0)) for d in divisors if d]
+    degrees, unchanged = f.degrees(), 0
+    for divisor, lead in cycle(pairs):
+        unchanged += 1
+        if not any(map(gt, lead, degrees)):
             quotient, rest = divmod(f, divisor)
             if quotient:
-                f, changed = rest, True
+                f, degrees, unchanged = rest, rest.degrees(), 1
+        if not f or unchanged == len(pairs):
+            break
     return f
 
 

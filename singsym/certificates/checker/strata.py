@@ -13,6 +13,7 @@ from typing import Any
 
 from flint import arb, arb_mat, ctx, fmpq, fmpq_mpoly
 
+from singsym.certificates.checker.balls import Compiled, is_off_zero, preconditioned
 from singsym.certificates.checker.polynomials import Rejected, polynomial, rational, remainder, ring
 from singsym.certificates.checker.rules import derive
 from singsym.certificates.checker.sets import RealSet, chosen, listed
@@ -67,13 +68,10 @@ def dimension_below(at: RealSet, point: Mapping[str, Any]) -> int:
         raise Rejected("point: expected as many different equations as variables that are not fixed")
     with ctx.workprec(BITS):
         box = _box(at, equations, fixed, centre, rational(point.get("radius", "")))
-        for unit in at.units:
-            value = _value(unit, box)
-            if not (value > 0 or value < 0):
-                raise Rejected("a unit may vanish in the box")
-        for p in (*at.positive, *at.nonnegative):
-            if not _value(p, box) > 0:
-                raise Rejected("an inequality is not seen to be strict in the box")
+        if not all(is_off_zero(unit, box) for unit in at.units):
+            raise Rejected("a unit may vanish in the box")
+        if not all(Compiled(p).at(box) > 0 for p in (*at.positive, *at.nonnegative)):
+            raise Rejected("an inequality is not seen to be strict in the box")
         if len(square) < len(at.equations):
             _check_implied(at, square, point, box)
     return len(fixed)
@@ -103,34 +101,13 @@ def _box(
     if not unknowns:
         return box
     places = [names.index(n) for n in unknowns]
-    gradients = [[e.derivative(i) for i in places] for e in equations]
-    size = len(unknowns)
-    try:
-        inverse = arb_mat([[_value(g, middle) for g in row] for row in gradients]).inv()
-    except ZeroDivisionError:
-        raise Rejected("the square system is singular at the centre") from None
-    inverse = inverse.mid()
-    jacobian = arb_mat([[_value(g, box) for g in row] for row in gradients])
-    at_centre = arb_mat([[_value(e, middle)] for e in equations])
-    identity = arb_mat([[arb(int(i == j)) for j in range(size)] for i in range(size)])
-    spread = arb_mat([[wide] for _ in range(size)])
-    moved = (identity - inverse * jacobian) * spread - inverse * at_centre
-    for i in range(size):
-        if not abs(moved[i, 0]) < arb(radius):
-            raise Rejected("the Newton operator does not map the box into itself")
+    jacobian = arb_mat([[Compiled(e.derivative(i)).at(box) for i in places] for e in equations])
+    inverse, defect = preconditioned(jacobian)
+    moved = inverse * arb_mat([[Compiled(e).at(middle)] for e in equations])
+    moved = moved + defect * arb_mat([[wide] for _ in unknowns])
+    if not all(abs(moved[i, 0]) < arb(radius) for i in range(len(unknowns))):
+        raise Rejected("the Newton operator does not map the box into itself")
     return box
-
-
-def _value(f: fmpq_mpoly, values: list[arb]) -> arb:
-    total = arb(0)
-    for exponents, coefficient in f.terms():
-        term = arb(coefficient)
-        for value, e in zip(values, exponents, strict=True):
-            # a power of a ball that holds zero would be none
-            for _ in range(int(e)):
-                term = term * value
-        total = total + term
-    return total
 
 
 def _check_implied(at: RealSet, square: list[Any], point: Mapping[str, Any], box: list[arb]) -> None:
@@ -145,8 +122,7 @@ def _check_implied(at: RealSet, square: list[Any], point: Mapping[str, Any], box
         raise Rejected("the other equations are not seen to vanish at the point")
     names = at.context.names()
     local = polynomial(data.get("local", "1"), at.context)
-    value = _value(local, box)
-    if not (value > 0 or value < 0):
+    if not is_off_zero(local, box):
         raise Rejected("local: it may vanish in the box")
     larger = ring([INVERSE, *names])
     one = larger.constant(1)

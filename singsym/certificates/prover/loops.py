@@ -14,7 +14,7 @@ from flint import ctx, fmpq_mpoly
 from numpy.typing import NDArray
 
 from singsym.certificates.checker.curves import BITS, ROOT_BITS, UNIT, Tube, Tubes
-from singsym.certificates.checker.points import ball, chart_of, real_roots
+from singsym.certificates.checker.points import chart_of, real_points
 from singsym.certificates.checker.polynomials import Rejected, determinant, remainder
 from singsym.certificates.checker.sets import RealSet
 from singsym.certificates.prover.finite import points_leaf
@@ -113,8 +113,7 @@ def _critical(at: RealSet, based: Based) -> tuple[dict[str, Any] | None, list[An
                 entry |= points_leaf(there)
                 _, minimal, coordinates = chart_of(there, entry)
                 with ctx.workprec(ROOT_BITS):
-                    roots = real_roots(minimal)
-                    balls += [[ball(coordinates[n], root) for n in at.variables] for root in roots]
+                    balls += real_points(minimal, [coordinates[n] for n in at.variables])
             entries.append(entry)
         else:
             scale = found.factor()[0]
