@@ -10,7 +10,6 @@ import re
 from collections.abc import Iterable, Sequence
 from functools import cache
 from itertools import cycle
-from operator import gt
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz
 
@@ -93,15 +92,12 @@ def remainder(f: fmpq_mpoly, divisors: Iterable[fmpq_mpoly]) -> fmpq_mpoly:
     >>> remainder(x**2 * y, [x - y, y**2 - 1])
     y
     """
-    pairs = [(d, d.monomial(0)) for d in divisors if d]
-    degrees, unchanged = f.degrees(), 0
-    for divisor, lead in cycle(pairs):
-        unchanged += 1
-        if not any(map(gt, lead, degrees)):
-            quotient, rest = divmod(f, divisor)
-            if quotient:
-                f, degrees, unchanged = rest, rest.degrees(), 1
-        if not f or unchanged == len(pairs):
+    divisors = [d for d in divisors if d]
+    unchanged = 0
+    for divisor in cycle(divisors):
+        quotient, rest = divmod(f, divisor)
+        f, unchanged = (rest, 1) if quotient else (f, unchanged + 1)
+        if not f or unchanged == len(divisors):
             break
     return f
 
