@@ -9,16 +9,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from flint import arb, ctx, fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly
+from flint import arb, ctx, fmpq_mpoly, fmpq_poly
 
-from singsym.certificates.checker.polynomials import (
-    Rejected,
-    determinant,
-    polynomial,
-    rational,
-    remainder,
-    ring,
-)
+from singsym.certificates.checker.polynomials import Rejected, polynomial, rational, remainder
 from singsym.certificates.checker.ranks import Defects, is_possible, types_of
 from singsym.certificates.checker.sets import MATRICES, RealSet, Statement, listed, power
 
@@ -189,44 +182,14 @@ def _defects(chart: _Chart, about: Statement, factor: fmpq_poly) -> Defects:
 
 
 def _rank(rows: Sequence[Sequence[fmpq_poly]], factor: fmpq_poly) -> int:
-    """The rank over the field Q[u]/(factor): that of balls at a root, where the bordering minors vanish."""
-    field = ring(["u"])
-    *exact, (modulus,) = [[_in(field, value) for value in row] for row in (*rows, [factor])]
-    bits = 256
-    while bits <= MOST_BITS:
-        with ctx.workprec(bits):
-            own, columns = _pivots(rows, real_roots(factor)[0])
-        others = [i for i in range(len(rows)) if i not in own]
-        left = [j for j in range(len(rows[0]) if rows else 0) if j not in columns]
-        borders = ([[exact[a][b] for b in (*columns, j)] for a in (*own, i)] for i in others for j in left)
-        if all(not determinant(block, [modulus]) for block in borders):
-            return len(own)
-        bits *= 4
-    raise Rejected("the rank of a matrix at a point is not seen")
-
-
-def _in(field: fmpq_mpoly_ctx, f: fmpq_poly) -> fmpq_mpoly:
-    return field.from_dict({(k,): c for k, c in enumerate(f.coeffs()) if c})
-
-
-def _pivots(rows: Sequence[Sequence[fmpq_poly]], root: arb) -> tuple[list[int], list[int]]:
-    """Rows and columns of a minor that does not vanish at a root: the pivots of balls without zero."""
-    left = [[ball(value, root) for value in row] for row in rows]
-    own: list[int] = []
-    columns: list[int] = []
-    while True:
-        free = [
-            (i, j)
-            for i, row in enumerate(left)
-            for j, entry in enumerate(row)
-            if i not in own and j not in columns and not entry.contains(0)
-        ]
-        if not free:
-            return own, columns
-        i, j = max(free, key=lambda place: float(abs(left[place[0]][place[1]]).mid()))
-        for k, row in enumerate(left):
-            if k != i and k not in own:
-                scale = row[j] / left[i][j]
-                left[k] = [a - scale * b for a, b in zip(row, left[i], strict=True)]
-        own.append(i)
-        columns.append(j)
+    """The rank over the field Q[u]/(factor), by elimination."""
+    left, rank = [list(row) for row in rows], 0
+    for j in range(len(rows[0]) if rows else 0):
+        k = next((k for k, row in enumerate(left) if row[j]), None)
+        if k is not None:
+            pivot = left.pop(k)
+            inverse = pivot[j].xgcd(factor)[1]
+            unit = [entry * inverse % factor for entry in pivot]
+            left = [[(a - row[j] * b) % factor for a, b in zip(row, unit, strict=True)] for row in left]
+            rank += 1
+    return rank

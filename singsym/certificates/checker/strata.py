@@ -25,14 +25,10 @@ INVERSE = "inverse__"
 
 def dimension_above(at: RealSet) -> int:
     """A bound of the dimension, by the leading monomials of the equations; -1 where one is constant."""
-    places = [at.context.names().index(name) for name in at.variables]
-    supports = []
-    for equation in at.equations:
-        if equation:
-            supports.append(frozenset(i for i, e in enumerate(equation.monomial(0)) if e))
+    supports = [frozenset(i for i, e in enumerate(f.monomial(0)) if e) for f in at.equations if f]
     if frozenset() in supports:
         return -1
-    return len(places) - _fewest(supports, len(places))
+    return len(at.variables) - _fewest(supports, len(at.variables))
 
 
 def _fewest(supports: list[frozenset[int]], most: int) -> int:
