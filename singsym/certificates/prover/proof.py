@@ -29,6 +29,7 @@ from singsym.effort.attempts import attempt
 from singsym.effort.budget import Undecided, current
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Polynomial, Ring
+from singsym.varieties.decomposition import decompose
 
 PART, WHOLE = 60.0, 600.0
 """Seconds of work for one part of the configuration space, and for all of it."""
@@ -161,13 +162,32 @@ class _Prover:
         if not types:
             raise Undecided("the rank of a matrix is not seen to be at most N")
         data: dict[str, Any] = {"ranks": evidence}
-        if types != {""} and (point := point_leaf(at, self.hints.points)) is not None:
+        point = None if types == {""} else point_leaf(at, self.hints.points)
+        if point is None and types != {""} and self._along_components(node):
+            return
+        if point is not None:
             data["point"] = point[0]
             if point[1] == 1 == dimension_above(at) and self.hints.curves:
                 with attempt("components of a curve", PART, failures=self.failures):
                     if (curve := curve_leaf(at, _based)) is not None:
                         data["curve"] = curve
         self.tree.leaf(node, "ranks", **data)
+
+    def _along_components(self, node: Node) -> bool:
+        """A set without a point that is seen, split on what vanishes on a component over Q; False if all does.
+
+        Where equations hold with multiplicity their gradients are dependent, and no point is seen.
+        """
+        at, ring = node.at, Ring(node.at.variables)
+        equations, units = ([Polynomial(ring, p) for p in group if p] for group in (at.equations, at.units))
+        for part in decompose(equations, units, ring=ring).value:
+            new = sorted((g.value for g in part.generators if remainder(g.value, at.equations)), key=len)
+            if new:
+                rest = self._split(node, new[0], new[1:])
+                if rest is not None:
+                    self._ranked(rest)
+                return True
+        return False
 
     def _types(self, at: RealSet, evidence: Mapping[str, Any]) -> frozenset[str]:
         """The types that are left; none where a rank is not seen to be at most N yet."""
