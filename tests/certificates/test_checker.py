@@ -178,7 +178,7 @@ def test_a_tube_holds_one_arc() -> None:
     """Over x from -1/10 to 1/10 the circle is within 1/100 of y = 1, not over all of x, nor at y = 1/2."""
     unit = 10**9
     with ctx.workprec(90):
-        tubes = Tubes(whole("x^2 + y^2 - 1"))
+        tubes = Tubes(whole("x^2 + y^2 - 1").equations)
         tube = tubes.tube([0, -unit // 10, unit // 10, [0, unit], [unit, 0], unit // 50])
         assert tube.start[1] < 1
         for wrong in (

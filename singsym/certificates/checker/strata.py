@@ -68,8 +68,8 @@ def dimension_below(at: RealSet, point: Mapping[str, Any]) -> int:
             raise Rejected("a unit may vanish in the box")
         if not all(Compiled(p).at(box) > 0 for p in (*at.positive, *at.nonnegative)):
             raise Rejected("an inequality is not seen to be strict in the box")
-        if len(square) < len(at.equations):
-            _check_implied(at, square, point, box)
+        if not is_off_zero(implied(at, point), box):
+            raise Rejected("local: it may vanish in the box")
     return len(fixed)
 
 
@@ -106,21 +106,19 @@ def _box(
     return box
 
 
-def _check_implied(at: RealSet, square: list[Any], point: Mapping[str, Any], box: list[arb]) -> None:
-    """Whether all equations vanish where those of the square system do, near the point; raises `Rejected`.
+def implied(at: RealSet, point: Mapping[str, Any]) -> fmpq_mpoly:
+    """A polynomial off whose zeros all equations vanish where those of `square` do; raises `Rejected`.
 
-    implied: steps and equations as of `derive`, from the square system with one more variable, the inverse
-    of a unit, or of a polynomial that does not vanish in the box: the place `unit` of the units of the set,
-    or the polynomial `local`.
+    implied: the polynomial `local`; steps and equations as of `derive`, from the square system with one more
+    variable, the inverse of that polynomial.  Nothing where the square system has all equations.
     """
-    data = point.get("implied")
+    square, data = listed(point, "square"), point.get("implied", {})
+    if set(square) == set(range(len(at.equations))):
+        return at.context.constant(1)
     if not isinstance(data, dict):
         raise Rejected("the other equations are not seen to vanish at the point")
-    names = at.context.names()
-    local = polynomial(data.get("local", "1"), at.context)
-    if not is_off_zero(local, box):
-        raise Rejected("local: it may vanish in the box")
-    larger = ring([INVERSE, *names])
+    local = polynomial(data.get("local", ""), at.context)
+    larger = ring([INVERSE, *at.context.names()])
     one = larger.constant(1)
 
     def raised(f: fmpq_mpoly) -> fmpq_mpoly:
@@ -131,3 +129,4 @@ def _check_implied(at: RealSet, square: list[Any], point: Mapping[str, Any], box
     for k, equation in enumerate(at.equations):
         if k not in square and remainder(raised(equation), derived.equations):
             raise Rejected(f"equation {k} is not seen to vanish at the point")
+    return local

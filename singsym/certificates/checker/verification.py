@@ -151,12 +151,11 @@ def _leaf(at: RealSet, about: Statement, line: Mapping[str, Any]) -> list[Findin
     types = possible_types(bounds_on(at, about, evidence), about.n)
     if not types:
         raise Rejected("no defects are possible: N and n are not those of L")
-    low = -1
-    if (point := line.get("point")) is not None:
-        if not isinstance(point, Mapping):
-            raise Rejected(f"point: expected a box, got {str(point)[:80]}")
-        low = dimension_below(at, point)
-    parts = None if line.get("curve") is None else components(at, line["curve"])
+    point = line.get("point")
+    if not isinstance(point, Mapping | None):
+        raise Rejected(f"point: expected a box, got {str(point)[:80]}")
+    low = -1 if point is None else dimension_below(at, point)
+    parts = None if line.get("curve") is None else components(at, line["curve"], point or {})
     return [Finding(at, types, None, low, dimension_above(at), parts)]
 
 

@@ -38,7 +38,7 @@ def point_leaf(at: RealSet, near: Sequence[Sequence[float]]) -> tuple[dict[str, 
     near: numerical points that may be of it; others are looked for where none of them is.
     """
     places = range(len(at.equations))
-    orders = (list(places), sorted(places, key=lambda k: _length(at.equations[k])))
+    orders = (sorted(places, key=lambda k: _length(at.equations[k])), list(places))
     for start, order in product(_starts(at, near), orders):
         rows, columns = _independent(at, start, order)
         for grid in GRIDS:

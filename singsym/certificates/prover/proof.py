@@ -162,21 +162,30 @@ class _Prover:
         if not types:
             raise Undecided("the rank of a matrix is not seen to be at most N")
         data: dict[str, Any] = {"ranks": evidence}
-        point = None if types == {""} else point_leaf(at, self.hints.points)
-        if point is None and types != {""} and self._along_components(node):
-            return
-        if point is not None:
-            data["point"] = point[0]
-            if point[1] == 1 == dimension_above(at) and self.hints.curves:
-                with attempt("components of a curve", PART, failures=self.failures):
-                    if (curve := curve_leaf(at, _based)) is not None:
-                        data["curve"] = curve
+        if types != {""}:
+            shown = self._shown(at)
+            wanted = ("point", "curve") if dimension_above(at) == 1 and self.hints.curves else ("point",)
+            if not set(wanted) <= set(shown) and self._along_components(node):
+                return
+            data |= shown
         self.tree.leaf(node, "ranks", **data)
 
-    def _along_components(self, node: Node) -> bool:
-        """A set without a point that is seen, split on what vanishes on a component over Q; False if all does.
+    def _shown(self, at: RealSet) -> dict[str, Any]:
+        """`point` and `curve` of a set, as far as they are found."""
+        point = point_leaf(at, self.hints.points)
+        if point is None:
+            return {}
+        shown = {"point": point[0]}
+        if point[1] == 1 == dimension_above(at) and self.hints.curves:
+            with attempt("components of a curve", PART, failures=self.failures):
+                if (curve := curve_leaf(at, point[0], _based)) is not None:
+                    shown["curve"] = curve
+        return shown
 
-        Where equations hold with multiplicity their gradients are dependent, and no point is seen.
+    def _along_components(self, node: Node) -> bool:
+        """A set split on what vanishes on a component, but not on all of it; False where there is nothing.
+
+        Where equations hold with multiplicity, or components cross, their gradients are dependent.
         """
         at, ring = node.at, Ring(node.at.variables)
         equations, units = ([Polynomial(ring, p) for p in group if p] for group in (at.equations, at.units))
