@@ -6,7 +6,8 @@ real roots are isolated by FLINT's `arb_fmpz_poly_complex_roots`, which leaves t
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 from flint import arb, ctx, fmpq_mpoly, fmpq_poly
@@ -18,8 +19,12 @@ from singsym.certificates.checker.sets import MATRICES, RealSet, Statement, list
 MOST_BITS = 4096
 
 
-def points(at: RealSet, about: Statement, line: Mapping[str, Any]) -> dict[str, int]:
-    """The number of real points of a set by their types; raises `Rejected`.
+Found = tuple[str, int, Callable[[fmpq_mpoly], bool]]
+"""The types of points, their number, and whether a polynomial vanishes at them, conjugate as they are."""
+
+
+def points(at: RealSet, about: Statement, line: Mapping[str, Any]) -> list[Found]:
+    """All real points of a set; raises `Rejected`.
 
     form: a linear polynomial u; minimal: rational coefficients, constant term first, of a polynomial m
         without double roots; coordinates: of each variable those of a polynomial r.
@@ -36,12 +41,11 @@ def points(at: RealSet, about: Statement, line: Mapping[str, Any]) -> dict[str, 
         there = there.gcd(chart.value(equation, there))
     for unit in at.units:
         there = there // there.gcd(chart.value(unit, there))
-    found: dict[str, int] = {}
-    for factor in _factors(there):
-        if roots := chart.feasible_roots(factor):
-            types = types_of(_defects(chart, about, factor))
-            found[types] = found.get(types, 0) + roots
-    return found
+    return [
+        (types_of(_defects(chart, about, factor)), roots, partial(chart.vanishes, factor))
+        for factor in _factors(there)
+        if (roots := chart.feasible_roots(factor))
+    ]
 
 
 def chart_of(at: RealSet, line: Mapping[str, Any]) -> tuple[fmpq_mpoly, fmpq_poly, dict[str, fmpq_poly]]:
@@ -120,6 +124,10 @@ class _Chart:
                     term = (term * powers[i, e]) % modulus
             total = total + term
         return total % modulus
+
+    def vanishes(self, factor: fmpq_poly, f: fmpq_mpoly) -> bool:
+        """Whether f is zero at the points of the roots of an irreducible polynomial."""
+        return not self.value(f, factor)
 
     def feasible_roots(self, factor: fmpq_poly) -> int:
         """How many real roots of an irreducible polynomial satisfy the inequalities."""

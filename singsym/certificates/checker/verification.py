@@ -144,7 +144,7 @@ def _leaf(at: RealSet, about: Statement, line: Mapping[str, Any]) -> list[Findin
         _check_empty(at, line)
         return []
     if line["rule"] == "points":
-        return [Finding(at, frozenset([t]), k, 0, 0) for t, k in points(at, about, line).items()]
+        return [Finding(at, frozenset([t]), k, 0, 0, zero=f) for t, k, f in points(at, about, line)]
     evidence = line.get("ranks")
     if not isinstance(evidence, Mapping):
         raise Rejected("ranks: expected evidence for matrices, by their names")
