@@ -56,8 +56,8 @@ def components(at: RealSet, data: Any, point: Mapping[str, Any]) -> int:
             for other in loops[:k]:
                 if not all(tube.misses(loop[0].start) for tube in other):
                     raise Rejected(f"loop {k} is not seen to be another one than those before")
-        for point in _critical_points(at, own, local, data.get("critical")):
-            if not any(tube.holds(point) for loop in loops for tube in loop):
+        for box in _critical_points(at, own, local, data.get("critical")):
+            if not any(tube.holds(box) for loop in loops for tube in loop):
                 raise Rejected("a critical point lies in no tube")
     return len(loops)
 

@@ -163,11 +163,10 @@ class _Prover:
             raise Undecided("the rank of a matrix is not seen to be at most N")
         data: dict[str, Any] = {"ranks": evidence}
         if types != {""}:
-            shown = self._shown(at)
-            wanted = ("point", "curve") if dimension_above(at) == 1 and self.hints.curves else ("point",)
-            if not set(wanted) <= set(shown) and self._along_components(node):
+            data |= self._shown(at)
+            lacks_curve = self._counts_curve(at) and "curve" not in data
+            if ("point" not in data or lacks_curve) and self._along_components(node, "point" in data):
                 return
-            data |= shown
         self.tree.leaf(node, "ranks", **data)
 
     def _shown(self, at: RealSet) -> dict[str, Any]:
@@ -176,27 +175,38 @@ class _Prover:
         if point is None:
             return {}
         shown = {"point": point[0]}
-        if point[1] == 1 == dimension_above(at) and self.hints.curves:
+        if point[1] == 1 and self._counts_curve(at):
             with attempt("components of a curve", PART, failures=self.failures):
                 if (curve := curve_leaf(at, point[0], _based)) is not None:
                     shown["curve"] = curve
         return shown
 
-    def _along_components(self, node: Node) -> bool:
+    def _counts_curve(self, at: RealSet) -> bool:
+        return self.hints.curves and dimension_above(at) == 1
+
+    def _along_components(self, node: Node, apart: bool) -> bool:
         """A set split on what vanishes on a component, but not on all of it; False where there is nothing.
 
-        Where equations hold with multiplicity, or components cross, their gradients are dependent.
+        Where equations hold with multiplicity, or there are more components, their gradients are dependent.
+        apart: only if no two components meet; otherwise the components of what is split are not counted, as a
+        table counts those of the set as it was.
         """
-        at, ring = node.at, Ring(node.at.variables)
+        at, ring, hints = node.at, Ring(node.at.variables), self.hints
         equations, units = ([Polynomial(ring, p) for p in group if p] for group in (at.equations, at.units))
-        for part in decompose(equations, units, ring=ring).value:
-            new = sorted((g.value for g in part.generators if remainder(g.value, at.equations)), key=len)
-            if new:
-                rest = self._split(node, new[0], new[1:])
-                if rest is not None:
-                    self._ranked(rest)
-                return True
-        return False
+        parts = decompose(equations, units, ring=ring).value
+        meet = not all((a.ideal + b.ideal).is_unit().value for a, b in combinations(parts, 2))
+        lists = [[g.value for g in p.generators if remainder(g.value, at.equations)] for p in parts]
+        new = sorted(next(filter(None, lists), []), key=len)
+        if not new or (apart and meet):
+            return False
+        self.hints = replace(hints, curves=hints.curves and not meet)
+        try:
+            rest = self._split(node, new[0], new[1:])
+            if rest is not None:
+                self._ranked(rest)
+        finally:
+            self.hints = hints
+        return True
 
     def _types(self, at: RealSet, evidence: Mapping[str, Any]) -> frozenset[str]:
         """The types that are left; none where a rank is not seen to be at most N yet."""
