@@ -30,6 +30,7 @@ FULL += (
     "shaper",
     "whitworth",
     "toggle-press",
+    "pantograph",
 )
 
 

@@ -22,7 +22,7 @@ from singsym.certificates.checker.sets import RealSet, Statement, chosen, listed
 from singsym.certificates.checker.strata import dimension_above, dimension_below
 from singsym.certificates.checker.table import Finding, Row, claimed_rows, contradicted, proven_row, unproven
 
-FORMAT = "singsym certificate 1"
+FORMAT = "singsym certificate 2"
 TRUSTED = (
     "that L, the loop equations and the conditions are those of the mechanism",
     "the arithmetic of FLINT: polynomials, factors over Q, roots, balls",

@@ -177,7 +177,7 @@ class _Prover:
         shown = {"point": point[0]}
         if point[1] == 1 and self._counts_curve(at):
             with attempt("components of a curve", PART, failures=self.failures):
-                if (curve := curve_leaf(at, point[0], _based)) is not None:
+                if (curve := curve_leaf(at, point[0], based)) is not None:
                     shown["curve"] = curve
         return shown
 
@@ -250,7 +250,7 @@ def _basis_steps(at: RealSet) -> dict[str, Any]:
     return {"steps": found.steps, "equations": [*kept, *found.equations]}
 
 
-def _based(at: RealSet) -> tuple[RealSet, dict[str, Any]]:
+def based(at: RealSet) -> tuple[RealSet, dict[str, Any]]:
     """The set with a Groebner basis, and the steps to it."""
     steps = _basis_steps(at)
     return derive(at, steps)[0], steps
