@@ -7,6 +7,7 @@ minors.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 from math import comb
@@ -14,6 +15,7 @@ from typing import Any
 
 from flint import fmpq_mpoly
 
+from singsym.certificates.checker.curves import components
 from singsym.certificates.checker.polynomials import Rejected, remainder
 from singsym.certificates.checker.ranks import bounds_on, possible_types
 from singsym.certificates.checker.rules import derive
@@ -176,8 +178,10 @@ class _Prover:
             return {}
         shown = {"point": point[0]}
         if point[1] == 1 and self._counts_curve(at):
-            with attempt("components of a curve", PART, failures=self.failures):
+            # refused where a loop is not in the set: a unit vanishes on a component
+            with attempt("components of a curve", PART, failures=self.failures), suppress(Rejected):
                 if (curve := curve_leaf(at, point[0], based)) is not None:
+                    components(at, curve, point[0])
                     shown["curve"] = curve
         return shown
 
