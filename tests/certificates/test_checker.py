@@ -18,7 +18,7 @@ from singsym.certificates.checker.curves import Tubes, components
 from singsym.certificates.checker.points import points
 from singsym.certificates.checker.polynomials import Rejected, polynomial, ring
 from singsym.certificates.checker.ranks import bounds_on, possible_types
-from singsym.certificates.checker.rules import cancel, derive, pivot
+from singsym.certificates.checker.rules import cancel, derive, pivot, squares
 from singsym.certificates.checker.sets import RealSet, Statement, statement
 from singsym.certificates.checker.strata import dimension_above, dimension_below
 from singsym.certificates.prover.loops import curve_leaf
@@ -106,6 +106,16 @@ def test_only_units_cancel() -> None:
         cancel(whole("x*y"), line)
     with pytest.raises(Rejected, match="not seen"):
         cancel(whole("x*y", exclusions=[["y"]]), line)
+
+
+def test_squares_with_positive_weights_vanish_one_by_one() -> None:
+    """x^2 - 2 x y + 3 y^2 = (x - y)^2 + 2 y^2."""
+    at = whole("x^2 - 2*x*y + 3*y^2")
+    found = squares(at, {"terms": [["1", "x - y"], ["2", "y"]]})[0]
+    assert [str(e) for e in found.equations[1:]] == ["x - y", "y"]
+    for wrong in ([["1", "x - y"], ["1", "y"]], [["1", "x"], ["-1", "x"]], [["1", "x", "y"]]):
+        with pytest.raises(Rejected):
+            squares(at, {"terms": wrong})
 
 
 def test_a_pivot_is_passive_and_a_unit() -> None:

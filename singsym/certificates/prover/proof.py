@@ -13,7 +13,7 @@ from itertools import combinations
 from math import comb
 from typing import Any
 
-from flint import fmpq_mpoly
+from flint import fmpq, fmpq_mpoly
 
 from singsym.certificates.checker.curves import components
 from singsym.certificates.checker.polynomials import Rejected, remainder
@@ -31,7 +31,9 @@ from singsym.effort.attempts import attempt
 from singsym.effort.budget import Undecided, current
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Polynomial, Ring
+from singsym.polynomials.sums_of_squares import squares_less_constant
 from singsym.varieties.decomposition import decompose
+from singsym.varieties.real.proofs.real_consequences import combined
 
 PART, WHOLE = 60.0, 600.0
 """Seconds of work for one part of the configuration space, and for all of it."""
@@ -107,6 +109,10 @@ class _Prover:
         """A set with one more equation."""
         node = self._based(node)
         if self._is_empty(node):
+            return
+        if terms := _squares(node.at):
+            (node,) = self.tree.apply(node, "squares", terms=terms)
+            self._on_locus(node, loci)
             return
         if dimension_above(node.at) == 0:
             self.tree.leaf(node, "points", **points_leaf(node.at))
@@ -252,6 +258,17 @@ def _basis_steps(at: RealSet) -> dict[str, Any]:
     is_unit = bool(found.basis) and found.basis[0].is_constant()
     kept = [] if is_unit else [k for k in range(len(at.equations)) if k not in found.equations]
     return {"steps": found.steps, "equations": [*kept, *found.equations]}
+
+
+def _squares(at: RealSet) -> list[list[str]]:
+    """Weights and polynomials whose squares add up to zero on a set, where not all vanish there anyway."""
+    ring = Ring(at.variables)
+    for f in combined([Polynomial(ring, g) for g in at.generators if g]):
+        _, squares, less = squares_less_constant(f) or (0, (), fmpq(1))
+        terms = [*squares, *([(-less, ring.one)] if less < 0 else [])]
+        if less <= 0 and any(remainder(root.value, at.equations) for _, root in terms):
+            return [[str(weight), str(root)] for weight, root in terms]
+    return []
 
 
 def based(at: RealSet) -> tuple[RealSet, dict[str, Any]]:
