@@ -14,13 +14,15 @@ from flint import ctx
 
 import singsym
 from singsym.certificates.checker import verification
-from singsym.certificates.checker.curves import Tubes
+from singsym.certificates.checker.curves import Tubes, components
 from singsym.certificates.checker.points import points
 from singsym.certificates.checker.polynomials import Rejected, polynomial, ring
 from singsym.certificates.checker.ranks import bounds_on, possible_types
-from singsym.certificates.checker.rules import cancel, derive, pivot
+from singsym.certificates.checker.rules import cancel, derive, pivot, squares
 from singsym.certificates.checker.sets import RealSet, Statement, statement
 from singsym.certificates.checker.strata import dimension_above, dimension_below
+from singsym.certificates.prover.loops import curve_leaf
+from singsym.certificates.prover.proof import based
 from singsym.certificates.prover.writing import Certificate
 from singsym.classes.taxonomy.types import feasible_classes
 
@@ -106,6 +108,16 @@ def test_only_units_cancel() -> None:
         cancel(whole("x*y", exclusions=[["y"]]), line)
 
 
+def test_squares_with_positive_weights_vanish_one_by_one() -> None:
+    """x^2 - 2 x y + 3 y^2 = (x - y)^2 + 2 y^2."""
+    at = whole("x^2 - 2*x*y + 3*y^2")
+    found = squares(at, {"terms": [["1", "x - y"], ["2", "y"]]})[0]
+    assert [str(e) for e in found.equations[1:]] == ["x - y", "y"]
+    for wrong in ([["1", "x - y"], ["1", "y"]], [["1", "x"], ["-1", "x"]], [["1", "x", "y"]]):
+        with pytest.raises(Rejected):
+            squares(at, {"terms": wrong})
+
+
 def test_a_pivot_is_passive_and_a_unit() -> None:
     matrix, roles = [["1", "x", "y"], ["0", "1", "x"]], ["output", "input", "passive"]
     at = about([], matrix, roles, exclusions=[["x"]]).whole
@@ -135,22 +147,26 @@ CIRCLE = {"form": "y", "minimal": ["-3/4", "0", "1"], "power": 1}
 
 
 def test_all_points_are_there_or_it_is_rejected() -> None:
-    """x = 1/2 on the unit circle: y^2 = 3/4, two points; one of them where y > 0."""
-    line = CIRCLE | {"coordinates": {"x": ["1/2"], "y": ["0", "1"]}}
+    """x = 1/2 on the unit circle: y^2 = 3/4, two points; one of them where y > 0.
+
+    With m = y^2 - 3/4 the coordinates are those of 1/2 * 2 y = y and y * 2 y = 3/2, over m' = 2 y.
+    """
+    line = CIRCLE | {"coordinates": {"x": ["0", "1"], "y": ["3/2"]}}
     equations = ("2*x - 1", "x^2 + y^2 - 1", "4*y^2 - 3")
     there = one_joint(*equations)
-    assert points(there.whole, there, line) == {"": 2}
+    ((types, number, vanishes),) = points(there.whole, there, line)
+    assert (types, number) == ("", 2)
+    assert [vanishes(polynomial(f, there.whole.context)) for f in ("4*x*y^2 - 3*x", "y")] == [True, False]
     above = one_joint(*equations, positive=["y"])
-    assert points(above.whole, above, line) == {"": 1}
+    assert [number for _, number, _ in points(above.whole, above, line)] == [1]
     for wrong in (
         {"minimal": ["-1/2", "1"]},
         {"minimal": ["9/16", "0", "-3/2", "0", "1"]},
-        {"coordinates": {"x": ["1/3"], "y": ["0", "1"]}},
+        {"coordinates": {"x": ["0", "2/3"], "y": ["3/2"]}},
         {"form": "x"},
     ):
         with pytest.raises(Rejected):
             points(there.whole, there, line | wrong)
-    line = CIRCLE | {"coordinates": {"x": ["1/2"], "y": ["0", "1"]}}
     not_all = one_joint("4*y^2 - 3", "2*x^2 - x")
     with pytest.raises(Rejected, match="more points"):
         points(not_all.whole, not_all, line)
@@ -178,7 +194,7 @@ def test_a_tube_holds_one_arc() -> None:
     """Over x from -1/10 to 1/10 the circle is within 1/100 of y = 1, not over all of x, nor at y = 1/2."""
     unit = 10**9
     with ctx.workprec(90):
-        tubes = Tubes(whole("x^2 + y^2 - 1"))
+        tubes = Tubes(whole("x^2 + y^2 - 1").equations)
         tube = tubes.tube([0, -unit // 10, unit // 10, [0, unit], [unit, 0], unit // 50])
         assert tube.start[1] < 1
         for wrong in (
@@ -188,6 +204,25 @@ def test_a_tube_holds_one_arc() -> None:
         ):
             with pytest.raises(Rejected):
                 tubes.tube(wrong)
+
+
+def test_a_curve_of_more_equations_than_it_needs() -> None:
+    """The unit circle by its equation and x times that: one component, by the square system of the first.
+
+    With the second in its place, or where the circle is not all of the equations, it is refused.
+    """
+    at, point = whole("x^2 + y^2 - 1", "x^3 + x*y^2 - x"), _square(0)
+    leaf = curve_leaf(at, point, based)
+    assert components(at, leaf, point) == 1
+    with pytest.raises(Rejected):
+        components(at, leaf, _square(1))
+    with pytest.raises(Rejected, match="equation 1 is not seen"):
+        components(whole("x^2 + y^2 - 1", "x - y"), leaf, point)
+
+
+def _square(place: int) -> dict[str, Any]:
+    """The part of a point that tells of the square system, one equation here."""
+    return {"square": [place], "implied": {"local": "1", "steps": [], "equations": [0, 1]}}
 
 
 @pytest.mark.parametrize("n", [1, 2, 3])

@@ -30,6 +30,7 @@ FULL += (
     "shaper",
     "whitworth",
     "toggle-press",
+    "pantograph",
 )
 
 
@@ -90,6 +91,22 @@ def test_exit_codes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
 
 
 x, y, z, w = sympy.symbols("x y z w")
+
+
+@pytest.mark.parametrize(
+    ("entry", "row"),
+    [(x**2 + y**2, Row("RI, IO", True, 0, 1, 1)), (x**2 + y**2 + 1, Row("RI, IO", False, -1, 0, 0))],
+)
+def test_less_over_the_reals(entry: sympy.Expr, row: Row, tmp_path: Path) -> None:
+    """T = (x^2 + y^2) A in the plane: the minor has curves of complex zeros, and one real zero, or none."""
+    columns = [("T", "output"), ("A", "input")]
+    equation = from_sympy(sympy.Matrix([[1, entry]]), columns, SymbolicSpace())
+    made = certificate(classify_equation(None, equation, cache=False))
+    found = verify(made.write(tmp_path / "proof"))
+    assert row in found.proven
+    assert found.complete, found.missing
+
+
 TWO = [("T1", "output"), ("T2", "output"), ("A1", "input"), ("A2", "input")]
 
 

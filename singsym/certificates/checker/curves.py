@@ -16,69 +16,57 @@ from typing import Any
 
 from flint import arb, arb_mat, arb_poly, ctx, fmpq, fmpq_mat, fmpq_mpoly
 
-from singsym.certificates.checker.points import ball, chart_of, check_all, real_roots
+from singsym.certificates.checker.balls import Compiled, is_off_zero, preconditioned
+from singsym.certificates.checker.points import chart_of, check_all, real_points
 from singsym.certificates.checker.polynomials import Rejected, determinant, polynomial, rational, remainder
 from singsym.certificates.checker.rules import derive
 from singsym.certificates.checker.sets import RealSet, chosen, listed, power
+from singsym.certificates.checker.strata import implied
 
-BITS, ROOT_BITS = 90, 2048
+BITS, ROOT_BITS = 90, 512
 UNIT = 10**9
 """Numbers of tubes are whole multiples of one over this."""
 
 
-def components(at: RealSet, data: Any) -> int:
+def components(at: RealSet, data: Any, point: Mapping[str, Any]) -> int:
     """The number of components of a curve, the zeros of the equations of a set; raises `Rejected`.
 
-    The set has one generator less than variables and no inequalities.  bounded: see `_check_bounded`;
-    critical: see `_critical_points`; loops: chains of tubes, see `Tubes.tube`.  Each critical point lies in a
-    tube, and each loop has a point that is in the set, so that the loop is its closure.
+    The set has no inequalities, and one generator less than variables; or else the square system of its
+    `point` is taken, see `strata.implied`.  bounded: see `_check_bounded`; critical: see `_critical_points`;
+    loops: chains of tubes, see `Tubes.tube`.  Each critical point lies in a tube, and each loop has a point
+    that is in the set, so that the loop is its closure.
     """
     if not isinstance(data, Mapping):
         raise Rejected("a curve: expected bounded, critical and loops")
-    if len(at.generators) != len(at.variables) - 1:
-        raise Rejected("a curve: expected one generator less than variables")
+    own, local = square_system(at, point)
+    if len(own) != len(at.variables) - 1:
+        raise Rejected("a curve: expected one equation less than variables")
     if at.positive or at.nonnegative:
         raise Rejected("a curve: its components are not counted within inequalities")
     _check_bounded(at, listed(data, "bounded", list))
-    system = Tubes(at)
+    system = Tubes(own)
     with ctx.workprec(BITS):
         loops = [[system.tube(entry) for entry in loop] for loop in listed(data, "loops", list)]
         for k, loop in enumerate(loops):
             for one, two in zip(loop, (*loop[1:], loop[0]), strict=True):
                 if not (two.holds(one.end) and one.holds(two.start)):
                     raise Rejected(f"loop {k}: a tube does not lead into the next one")
-            if not any(all(_is_off_zero(unit, tube.start) for unit in at.units) for tube in loop):
+            if not any(all(is_off_zero(unit, tube.start) for unit in (*at.units, local)) for tube in loop):
                 raise Rejected(f"loop {k}: no point of it is seen to be in the set")
             for other in loops[:k]:
                 if not all(tube.misses(loop[0].start) for tube in other):
                     raise Rejected(f"loop {k} is not seen to be another one than those before")
-        for point in _critical_points(at, data.get("critical")):
-            if not any(tube.holds(point) for loop in loops for tube in loop):
+        for box in _critical_points(at, own, local, data.get("critical")):
+            if not any(tube.holds(box) for loop in loops for tube in loop):
                 raise Rejected("a critical point lies in no tube")
     return len(loops)
 
 
-def _is_off_zero(f: fmpq_mpoly, values: Sequence[arb]) -> bool:
-    return not Compiled(f).at(values).contains(0)
-
-
-class Compiled:
-    """A polynomial to be evaluated at balls again and again."""
-
-    def __init__(self, f: fmpq_mpoly) -> None:
-        self.terms = [
-            (arb(c), [i for i, e in enumerate(exponents) for _ in range(int(e))])
-            for exponents, c in f.terms()
-        ]
-
-    def at(self, values: Sequence[Any]) -> Any:
-        """The value at a point, of balls or of polynomials over these."""
-        total = values[0] * 0
-        for term, places in self.terms:
-            for i in places:
-                term = term * values[i]
-            total = total + term
-        return total
+def square_system(at: RealSet, point: Mapping[str, Any]) -> tuple[Sequence[fmpq_mpoly], fmpq_mpoly]:
+    """Equations, and a polynomial off whose zeros they have just those of the set; raises `Rejected`."""
+    if len(at.generators) == len(at.variables) - 1:
+        return at.generators, at.context.constant(1)
+    return chosen(at.equations, listed(point, "square"), "equation"), implied(at, point)
 
 
 @dataclass(frozen=True)
@@ -122,13 +110,13 @@ class Tube:
 
 
 class Tubes:
-    """The curve of a set, and tubes with an arc of it in each."""
+    """A curve, and tubes with an arc of it in each."""
 
-    def __init__(self, at: RealSet) -> None:
-        self.size = len(at.variables)
+    def __init__(self, equations: Sequence[fmpq_mpoly]) -> None:
+        self.size = len(equations) + 1
         with ctx.workprec(BITS):
-            self.functions = [Compiled(e) for e in at.generators]
-            self.gradients = [[Compiled(e.derivative(i)) for i in range(self.size)] for e in at.generators]
+            self.functions = [Compiled(e) for e in equations]
+            self.gradients = [[Compiled(e.derivative(i)) for i in range(self.size)] for e in equations]
 
     def tube(self, entry: Any) -> Tube:
         """`[along, from, to, centre, slope, radius]`, all but the first in units; raises `Rejected`.
@@ -144,11 +132,7 @@ class Tubes:
         box = [x if i == along else x + spread for i, x in enumerate(tube.line(middle + half))]
         jacobian = [[g.at(box) for g in row] for row in self.gradients]
         square = arb_mat([[row[i] for i in others] for row in jacobian])
-        try:
-            inverse = square.mid().inv().mid()
-        except ZeroDivisionError:
-            raise Rejected("a tube: the equations are dependent in its middle") from None
-        defect = inverse * square - arb_mat([[arb(int(i == j)) for j in others] for i in others])
+        inverse, defect = preconditioned(square)
         line = [arb_poly([c, d]) for c, d in zip(tube.line(middle), slope, strict=True)]
         line[along] = arb_poly([middle, 1])
         series = [f.at(line).coeffs() for f in self.functions]
@@ -230,25 +214,24 @@ def _check_bounded(at: RealSet, steps: Sequence[Any]) -> None:
         raise Rejected("bounded: not all variables are seen to be bounded")
 
 
-def _critical_points(at: RealSet, data: Any) -> list[list[arb]]:
+def _critical_points(at: RealSet, own: Sequence[fmpq_mpoly], local: fmpq_mpoly, data: Any) -> list[list[arb]]:
     """Balls around points of the curve among which are all where a coordinate is largest on a component.
 
-    variable: the coordinate.  There the determinant of the gradients by the others vanishes, which is on the
-    curve `scale` times the product of the polynomials of `factors`, each with its own zeros: steps and
-    equations as of `derive`, and a chart as of the leaf `points`.
+    variable: the coordinate.  There `local` vanishes, or the determinant of the gradients by the others.
+    Their product is on the curve `scale` times that of the polynomials of `factors`, each with its own zeros:
+    steps and equations as of `derive`, and a chart as of the leaf `points`.
     """
     if not isinstance(data, Mapping) or data.get("variable") not in at.variables:
         raise Rejected("critical: expected a variable of the set")
-    own = at.variables.index(data["variable"])
-    others = [i for i in range(len(at.variables)) if i != own]
-    rows = [[remainder(e.derivative(i), at.equations) for i in others] for e in at.generators]
+    others = [i for i, name in enumerate(at.variables) if name != data["variable"]]
+    rows = [[remainder(e.derivative(i), at.equations) for i in others] for e in own]
     product = at.context.constant(rational(data.get("scale", "1")))
     factors = listed(data, "factors", dict)
     parts = [polynomial(entry.get("polynomial", ""), at.context) for entry in factors]
     for part, entry in zip(parts, factors, strict=True):
         for _ in range(power(entry, "multiplicity")):
             product = product * part
-    if not product or remainder(determinant(rows, at.equations) - product, at.equations):
+    if not product or remainder(determinant(rows, at.equations) * local - product, at.equations):
         raise Rejected("critical: the determinant is not seen to be this product")
     found: list[list[arb]] = []
     for part, entry in zip(parts, factors, strict=True):
@@ -258,6 +241,5 @@ def _critical_points(at: RealSet, data: Any) -> list[list[arb]]:
         form, minimal, coordinates = chart_of(there, entry)
         check_all(there, form, minimal, coordinates, power(entry))
         with ctx.workprec(ROOT_BITS):
-            roots = real_roots(minimal)
-            found += [[ball(coordinates[name], root) for name in at.variables] for root in roots]
+            found += real_points(minimal, [coordinates[name] for name in at.variables])
     return found

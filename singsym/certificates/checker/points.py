@@ -6,7 +6,8 @@ real roots are isolated by FLINT's `arb_fmpz_poly_complex_roots`, which leaves t
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 from flint import arb, ctx, fmpq_mpoly, fmpq_poly
@@ -18,30 +19,33 @@ from singsym.certificates.checker.sets import MATRICES, RealSet, Statement, list
 MOST_BITS = 4096
 
 
-def points(at: RealSet, about: Statement, line: Mapping[str, Any]) -> dict[str, int]:
-    """The number of real points of a set by their types; raises `Rejected`.
+Found = tuple[str, int, Callable[[fmpq_mpoly], bool]]
+"""The types of points, their number, and whether a polynomial vanishes at them, conjugate as they are."""
+
+
+def points(at: RealSet, about: Statement, line: Mapping[str, Any]) -> list[Found]:
+    """All real points of a set; raises `Rejected`.
 
     form: a linear polynomial u; minimal: rational coefficients, constant term first, of a polynomial m
         without double roots; coordinates: of each variable those of a polynomial r.
-    Powers of m(u) and of x - r(u) have remainder zero by the equations, so that each point of the set is r
-    of a root; the roots at which an equation does not vanish, or a unit does, are left out.
+    Powers of m(u) and of x m'(u) - r(u) have remainder zero by the equations, so that each point of the set
+    is r / m' of a root; the roots at which an equation does not vanish, or a unit does, are left out.
     """
     form, minimal, coordinates = chart_of(at, line)
     check_all(at, form, minimal, coordinates, power(line))
     chart = _Chart(at, minimal, coordinates)
-    if (chart.value(form, minimal) - fmpq_poly([0, 1])) % minimal:
+    if (chart.value(form, minimal) - fmpq_poly([0, 1]) * minimal.derivative() ** degree(form)) % minimal:
         raise Rejected("form: it is not the root at its points")
     there = minimal
     for equation in at.generators:
         there = there.gcd(chart.value(equation, there))
     for unit in at.units:
         there = there // there.gcd(chart.value(unit, there))
-    found: dict[str, int] = {}
-    for factor in _factors(there):
-        if roots := chart.feasible_roots(factor):
-            types = types_of(_defects(chart, about, factor))
-            found[types] = found.get(types, 0) + roots
-    return found
+    return [
+        (types_of(_defects(chart, about, factor)), roots, partial(chart.vanishes, factor))
+        for factor in _factors(there)
+        if (roots := chart.feasible_roots(factor))
+    ]
 
 
 def chart_of(at: RealSet, line: Mapping[str, Any]) -> tuple[fmpq_mpoly, fmpq_poly, dict[str, fmpq_poly]]:
@@ -79,7 +83,8 @@ def check_all(
         return sum((p * c for p, c in zip(powers, f.coeffs(), strict=False)), start=at.context.constant(0))
 
     gens = dict(zip(at.context.names(), at.context.gens(), strict=True))
-    for f in (put(minimal), *(gens[name] - put(r) for name, r in coordinates.items())):
+    below = put(minimal.derivative())
+    for f in (put(minimal), *(gens[name] * below - put(r) for name, r in coordinates.items())):
         product = at.context.constant(1)
         for _ in range(exponent):
             product = remainder(product * f, at.equations)
@@ -87,21 +92,30 @@ def check_all(
             raise Rejected("there may be more points: a power is not seen to be in the ideal")
 
 
+def degree(*polynomials: fmpq_mpoly) -> int:
+    """The least even number that is not below the degree of any of these."""
+    degrees = [int(sum(exponents)) for f in polynomials for exponents in f.monoms()]
+    return -(-max(degrees, default=0) // 2) * 2
+
+
 class _Chart:
-    """The points r(u) of a set, for the roots u of a polynomial."""
+    """The points r(u) / m'(u) of a set, for the roots u of a polynomial m."""
 
     def __init__(self, at: RealSet, minimal: fmpq_poly, coordinates: Mapping[str, fmpq_poly]) -> None:
         self.at = at
-        zero = fmpq_poly([])
-        self.images = [coordinates.get(name, zero) for name in at.context.names()]
+        self.images = [*(coordinates[name] for name in at.context.names()), minimal.derivative()]
 
-    def value(self, f: fmpq_mpoly, modulus: fmpq_poly) -> fmpq_poly:
-        """f at r(u), modulo a polynomial in u."""
+    def value(self, f: fmpq_mpoly, modulus: fmpq_poly, even: int | None = None) -> fmpq_poly:
+        """f at its points, modulo a polynomial in u, times a power of m' that is not below its degree.
+
+        even: which one.  Even powers are positive, as m' vanishes at no root.
+        """
+        even = degree(f) if even is None else even
         total = fmpq_poly([])
         powers: dict[tuple[int, int], fmpq_poly] = {}
         for exponents, coefficient in f.terms():
             term = fmpq_poly([coefficient])
-            for i, e in enumerate(exponents):
+            for i, e in enumerate((*map(int, exponents), even - int(sum(exponents)))):
                 for k in range(1, e + 1):
                     if (i, k) not in powers:
                         before = powers[i, k - 1] if k > 1 else fmpq_poly([1])
@@ -110,6 +124,10 @@ class _Chart:
                     term = (term * powers[i, e]) % modulus
             total = total + term
         return total % modulus
+
+    def vanishes(self, factor: fmpq_poly, f: fmpq_mpoly) -> bool:
+        """Whether f is zero at the points of the roots of an irreducible polynomial."""
+        return not self.value(f, factor)
 
     def feasible_roots(self, factor: fmpq_poly) -> int:
         """How many real roots of an irreducible polynomial satisfy the inequalities."""
@@ -143,6 +161,12 @@ def ball(value: fmpq_poly, root: arb) -> arb:
     return total
 
 
+def real_points(minimal: fmpq_poly, coordinates: Sequence[fmpq_poly]) -> list[list[arb]]:
+    """Balls around the real points of a chart."""
+    slope = minimal.derivative()
+    return [[ball(r, root) / ball(slope, root) for r in coordinates] for root in real_roots(minimal)]
+
+
 def _sign(value: fmpq_poly, root: arb) -> int:
     """The sign of a value at a root, 0 where it is not seen."""
     total = ball(value, root)
@@ -152,7 +176,8 @@ def _sign(value: fmpq_poly, root: arb) -> int:
 def _defects(chart: _Chart, about: Statement, factor: fmpq_poly) -> Defects:
     """The defects at the roots of an irreducible polynomial, one of them real, which are all alike."""
     at = chart.at
-    values = [[chart.value(entry, factor) for entry in row] for row in at.matrix]
+    even = degree(*(entry for row in at.matrix for entry in row))
+    values = [[chart.value(entry, factor, even) for entry in row] for row in at.matrix]
     found = []
     for name in MATRICES:
         columns = at.columns_of(name)
@@ -165,53 +190,14 @@ def _defects(chart: _Chart, about: Statement, factor: fmpq_poly) -> Defects:
 
 
 def _rank(rows: Sequence[Sequence[fmpq_poly]], factor: fmpq_poly) -> int:
-    """The rank over the field Q[u]/(factor): that of balls at a root, where the bordering minors vanish."""
-    bits = 256
-    while bits <= MOST_BITS:
-        with ctx.workprec(bits):
-            own, columns = _pivots(rows, real_roots(factor)[0])
-        others = [i for i in range(len(rows)) if i not in own]
-        left = [j for j in range(len(rows[0]) if rows else 0) if j not in columns]
-        borders = (([*own, i], [*columns, j]) for i in others for j in left)
-        if all(not _minor(rows, r, c, factor) for r, c in borders):
-            return len(own)
-        bits *= 4
-    raise Rejected("the rank of a matrix at a point is not seen")
-
-
-def _pivots(rows: Sequence[Sequence[fmpq_poly]], root: arb) -> tuple[list[int], list[int]]:
-    """Rows and columns of a minor that does not vanish at a root: the pivots of balls without zero."""
-    left = [[ball(value, root) for value in row] for row in rows]
-    own: list[int] = []
-    columns: list[int] = []
-    while True:
-        free = [
-            (i, j)
-            for i, row in enumerate(left)
-            for j, entry in enumerate(row)
-            if i not in own and j not in columns and not entry.contains(0)
-        ]
-        if not free:
-            return own, columns
-        i, j = max(free, key=lambda place: float(abs(left[place[0]][place[1]]).mid()))
-        for k, row in enumerate(left):
-            if k != i and k not in own:
-                scale = row[j] / left[i][j]
-                left[k] = [a - scale * b for a, b in zip(row, left[i], strict=True)]
-        own.append(i)
-        columns.append(j)
-
-
-def _minor(
-    rows: Sequence[Sequence[fmpq_poly]], own: Sequence[int], columns: Sequence[int], factor: fmpq_poly
-) -> fmpq_poly:
-    """A minor modulo a polynomial, expanded by its first row."""
-    if not own:
-        return fmpq_poly([1])
-    total = fmpq_poly([])
-    for k, j in enumerate(columns):
-        entry = rows[own[0]][j]
-        if entry:
-            rest = _minor(rows, own[1:], [*columns[:k], *columns[k + 1 :]], factor)
-            total = total + entry * rest * (-1) ** k
-    return total % factor
+    """The rank over the field Q[u]/(factor), by elimination."""
+    left, rank = [list(row) for row in rows], 0
+    for j in range(len(rows[0]) if rows else 0):
+        k = next((k for k, row in enumerate(left) if row[j]), None)
+        if k is not None:
+            pivot = left.pop(k)
+            inverse = pivot[j].xgcd(factor)[1]
+            unit = [entry * inverse % factor for entry in pivot]
+            left = [[(a - row[j] * b) % factor for a, b in zip(row, unit, strict=True)] for row in left]
+            rank += 1
+    return rank

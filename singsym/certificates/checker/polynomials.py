@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 from functools import cache
+from itertools import cycle
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz
 
@@ -92,13 +93,12 @@ def remainder(f: fmpq_mpoly, divisors: Iterable[fmpq_mpoly]) -> fmpq_mpoly:
     y
     """
     divisors = [d for d in divisors if d]
-    changed = bool(f)
-    while changed and f:
-        changed = False
-        for divisor in divisors:
-            quotient, rest = divmod(f, divisor)
-            if quotient:
-                f, changed = rest, True
+    unchanged = 0
+    for divisor in cycle(divisors):
+        quotient, rest = divmod(f, divisor)
+        f, unchanged = (rest, 1) if quotient else (f, unchanged + 1)
+        if not f or unchanged == len(divisors):
+            break
     return f
 
 

@@ -83,6 +83,21 @@ def cancel(at: RealSet, line: Line) -> tuple[RealSet, ...]:
     return (at.within([f]),)
 
 
+def squares(at: RealSet, line: Line) -> tuple[RealSet, ...]:
+    """More equations: polynomials whose squares add up to zero on the set, with positive weights.
+
+    terms: each `[weight, polynomial]`.
+    """
+    given = listed(line, "terms", list)
+    if any(len(term) != 2 for term in given):
+        raise Rejected("terms: expected pairs of a weight and a polynomial")
+    terms = [(rational(w), polynomial(f, at.context)) for w, f in given]
+    total = sum((f * f * w for w, f in terms), start=at.context.constant(0))
+    if not all(w > 0 for w, _ in terms) or remainder(total, at.equations):
+        raise Rejected("squares with positive weights are not seen to add up to zero")
+    return (at.within([f for _, f in terms]),)
+
+
 def pivot(at: RealSet, line: Line) -> tuple[RealSet, ...]:
     """A row and a passive column less, by a pivot that vanishes nowhere: all four ranks are one less."""
     i, j = whole_number(line, "row"), whole_number(line, "column")
@@ -109,5 +124,6 @@ RULES: dict[str, Callable[[RealSet, Line], tuple[RealSet, ...]]] = {
     "split": split,
     "derive": derive,
     "cancel": cancel,
+    "squares": squares,
     "pivot": pivot,
 }

@@ -126,17 +126,8 @@ def statement(data: Mapping[str, Any]) -> Statement:
     if set(roles) - set(ROLES) or any(len(row) != len(roles) for row in rows):
         raise Rejected("L: expected a role, output, input or passive, for each entry of each row")
     equations = read(listed(data, "equations", str))
-    whole = RealSet(
-        context,
-        equations,
-        equations,
-        (*units, *positive),
-        positive,
-        tuple(nonnegative),
-        rows,
-        roles,
-        0,
-    )
+    nowhere, signs = (*units, *positive), (positive, tuple(nonnegative))
+    whole = RealSet(context, equations, equations, nowhere, *signs, rows, roles, 0)
     N, n = whole_number(data, "N"), whole_number(data, "n")
     if [roles.count(role) for role in ROLES] != [n, n, N - n]:
         raise Rejected(f"L: expected {n} output, {n} input and {N - n} passive columns, as N = {N}, n = {n}")

@@ -13,6 +13,7 @@ from typing import Any
 
 from flint import arb, arb_mat, ctx, fmpq, fmpq_mpoly
 
+from singsym.certificates.checker.balls import Compiled, is_off_zero, preconditioned
 from singsym.certificates.checker.polynomials import Rejected, polynomial, rational, remainder, ring
 from singsym.certificates.checker.rules import derive
 from singsym.certificates.checker.sets import RealSet, chosen, listed
@@ -24,14 +25,10 @@ INVERSE = "inverse__"
 
 def dimension_above(at: RealSet) -> int:
     """A bound of the dimension, by the leading monomials of the equations; -1 where one is constant."""
-    places = [at.context.names().index(name) for name in at.variables]
-    supports = []
-    for equation in at.equations:
-        if equation:
-            supports.append(frozenset(i for i, e in enumerate(equation.monomial(0)) if e))
+    supports = [frozenset(i for i, e in enumerate(f.monomial(0)) if e) for f in at.equations if f]
     if frozenset() in supports:
         return -1
-    return len(places) - _fewest(supports, len(places))
+    return len(at.variables) - _fewest(supports, len(at.variables))
 
 
 def _fewest(supports: list[frozenset[int]], most: int) -> int:
@@ -67,15 +64,12 @@ def dimension_below(at: RealSet, point: Mapping[str, Any]) -> int:
         raise Rejected("point: expected as many different equations as variables that are not fixed")
     with ctx.workprec(BITS):
         box = _box(at, equations, fixed, centre, rational(point.get("radius", "")))
-        for unit in at.units:
-            value = _value(unit, box)
-            if not (value > 0 or value < 0):
-                raise Rejected("a unit may vanish in the box")
-        for p in (*at.positive, *at.nonnegative):
-            if not _value(p, box) > 0:
-                raise Rejected("an inequality is not seen to be strict in the box")
-        if len(square) < len(at.equations):
-            _check_implied(at, square, point, box)
+        if not all(is_off_zero(unit, box) for unit in at.units):
+            raise Rejected("a unit may vanish in the box")
+        if not all(Compiled(p).at(box) > 0 for p in (*at.positive, *at.nonnegative)):
+            raise Rejected("an inequality is not seen to be strict in the box")
+        if not is_off_zero(implied(at, point), box):
+            raise Rejected("local: it may vanish in the box")
     return len(fixed)
 
 
@@ -103,52 +97,28 @@ def _box(
     if not unknowns:
         return box
     places = [names.index(n) for n in unknowns]
-    gradients = [[e.derivative(i) for i in places] for e in equations]
-    size = len(unknowns)
-    try:
-        inverse = arb_mat([[_value(g, middle) for g in row] for row in gradients]).inv()
-    except ZeroDivisionError:
-        raise Rejected("the square system is singular at the centre") from None
-    inverse = inverse.mid()
-    jacobian = arb_mat([[_value(g, box) for g in row] for row in gradients])
-    at_centre = arb_mat([[_value(e, middle)] for e in equations])
-    identity = arb_mat([[arb(int(i == j)) for j in range(size)] for i in range(size)])
-    spread = arb_mat([[wide] for _ in range(size)])
-    moved = (identity - inverse * jacobian) * spread - inverse * at_centre
-    for i in range(size):
-        if not abs(moved[i, 0]) < arb(radius):
-            raise Rejected("the Newton operator does not map the box into itself")
+    jacobian = arb_mat([[Compiled(e.derivative(i)).at(box) for i in places] for e in equations])
+    inverse, defect = preconditioned(jacobian)
+    moved = inverse * arb_mat([[Compiled(e).at(middle)] for e in equations])
+    moved = moved + defect * arb_mat([[wide] for _ in unknowns])
+    if not all(abs(moved[i, 0]) < arb(radius) for i in range(len(unknowns))):
+        raise Rejected("the Newton operator does not map the box into itself")
     return box
 
 
-def _value(f: fmpq_mpoly, values: list[arb]) -> arb:
-    total = arb(0)
-    for exponents, coefficient in f.terms():
-        term = arb(coefficient)
-        for value, e in zip(values, exponents, strict=True):
-            # a power of a ball that holds zero would be none
-            for _ in range(int(e)):
-                term = term * value
-        total = total + term
-    return total
+def implied(at: RealSet, point: Mapping[str, Any]) -> fmpq_mpoly:
+    """A polynomial off whose zeros all equations vanish where those of `square` do; raises `Rejected`.
 
-
-def _check_implied(at: RealSet, square: list[Any], point: Mapping[str, Any], box: list[arb]) -> None:
-    """Whether all equations vanish where those of the square system do, near the point; raises `Rejected`.
-
-    implied: steps and equations as of `derive`, from the square system with one more variable, the inverse
-    of a unit, or of a polynomial that does not vanish in the box: the place `unit` of the units of the set,
-    or the polynomial `local`.
+    implied: the polynomial `local`; steps and equations as of `derive`, from the square system with one more
+    variable, the inverse of that polynomial.  Nothing where the square system has all equations.
     """
-    data = point.get("implied")
+    square, data = listed(point, "square"), point.get("implied", {})
+    if set(square) == set(range(len(at.equations))):
+        return at.context.constant(1)
     if not isinstance(data, dict):
         raise Rejected("the other equations are not seen to vanish at the point")
-    names = at.context.names()
-    local = polynomial(data.get("local", "1"), at.context)
-    value = _value(local, box)
-    if not (value > 0 or value < 0):
-        raise Rejected("local: it may vanish in the box")
-    larger = ring([INVERSE, *names])
+    local = polynomial(data.get("local", ""), at.context)
+    larger = ring([INVERSE, *at.context.names()])
     one = larger.constant(1)
 
     def raised(f: fmpq_mpoly) -> fmpq_mpoly:
@@ -159,3 +129,4 @@ def _check_implied(at: RealSet, square: list[Any], point: Mapping[str, Any], box
     for k, equation in enumerate(at.equations):
         if k not in square and remainder(raised(equation), derived.equations):
             raise Rejected(f"equation {k} is not seen to vanish at the point")
+    return local

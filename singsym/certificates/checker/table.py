@@ -5,11 +5,13 @@ Source: Zlatanov, Fenton, Benhabib (1998), Table 1; singsym's own for what leave
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from singsym.certificates.checker.polynomials import Rejected, remainder
+from flint import fmpq_mpoly
+
+from singsym.certificates.checker.polynomials import Rejected
 from singsym.certificates.checker.sets import RealSet
 
 
@@ -19,7 +21,7 @@ class Finding:
 
     types: those that its points can have; points: their number, None where it is not known; low, high: bounds
     of its dimension, -1 for the empty set; components: those of a smooth curve, all zeros of its equations,
-    that is its closure.
+    that is its closure; zero: whether a polynomial vanishes at its points, where that is known exactly.
     """
 
     at: RealSet
@@ -28,6 +30,7 @@ class Finding:
     low: int
     high: int
     components: int | None = None
+    zero: Callable[[fmpq_mpoly], bool] | None = None
 
     @property
     def closed_components(self) -> int | None:
@@ -35,9 +38,11 @@ class Finding:
         return self.components if self.points is None else self.points
 
     def holds(self, other: Finding) -> bool:
-        """Whether another set is seen to lie on the curve."""
-        return self.components is not None and not any(
-            remainder(g, other.at.equations) for g in self.at.generators
+        """Whether finitely many points lie on the curve."""
+        return (
+            self.components is not None
+            and other.zero is not None
+            and all(map(other.zero, self.at.generators))
         )
 
 

@@ -22,7 +22,7 @@ from singsym.certificates.checker.sets import RealSet, Statement, chosen, listed
 from singsym.certificates.checker.strata import dimension_above, dimension_below
 from singsym.certificates.checker.table import Finding, Row, claimed_rows, contradicted, proven_row, unproven
 
-FORMAT = "singsym certificate 1"
+FORMAT = "singsym certificate 2"
 TRUSTED = (
     "that L, the loop equations and the conditions are those of the mechanism",
     "the arithmetic of FLINT: polynomials, factors over Q, roots, balls",
@@ -144,19 +144,18 @@ def _leaf(at: RealSet, about: Statement, line: Mapping[str, Any]) -> list[Findin
         _check_empty(at, line)
         return []
     if line["rule"] == "points":
-        return [Finding(at, frozenset([t]), k, 0, 0) for t, k in points(at, about, line).items()]
+        return [Finding(at, frozenset([t]), k, 0, 0, zero=f) for t, k, f in points(at, about, line)]
     evidence = line.get("ranks")
     if not isinstance(evidence, Mapping):
         raise Rejected("ranks: expected evidence for matrices, by their names")
     types = possible_types(bounds_on(at, about, evidence), about.n)
     if not types:
         raise Rejected("no defects are possible: N and n are not those of L")
-    low = -1
-    if (point := line.get("point")) is not None:
-        if not isinstance(point, Mapping):
-            raise Rejected(f"point: expected a box, got {str(point)[:80]}")
-        low = dimension_below(at, point)
-    parts = None if line.get("curve") is None else components(at, line["curve"])
+    point = line.get("point")
+    if not isinstance(point, Mapping | None):
+        raise Rejected(f"point: expected a box, got {str(point)[:80]}")
+    low = -1 if point is None else dimension_below(at, point)
+    parts = None if line.get("curve") is None else components(at, line["curve"], point or {})
     return [Finding(at, types, None, low, dimension_above(at), parts)]
 
 

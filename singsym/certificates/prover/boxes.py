@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from decimal import Decimal
 from fractions import Fraction
+from itertools import product
 from typing import Any
 
 from flint import arb, arb_mat, ctx, fmpq, fmpq_mpoly
@@ -36,8 +37,10 @@ def point_leaf(at: RealSet, near: Sequence[Sequence[float]]) -> tuple[dict[str, 
 
     near: numerical points that may be of it; others are looked for where none of them is.
     """
-    for start in _starts(at, near):
-        rows, columns = _independent(at, start)
+    places = range(len(at.equations))
+    orders = (sorted(places, key=lambda k: _length(at.equations[k])), list(places))
+    for start, order in product(_starts(at, near), orders):
+        rows, columns = _independent(at, start, order)
         for grid in GRIDS:
             data = _boxed(at, start, rows, columns, grid)
             if data is None:
@@ -82,8 +85,12 @@ def _largest(f: Polynomial, point: Sequence[float]) -> float:
     return max(sizes)
 
 
-def _independent(at: RealSet, point: Sequence[float]) -> tuple[list[int], list[int]]:
-    """The first equations with independent gradients, and as many variables to be solved for."""
+def _length(f: fmpq_mpoly) -> tuple[int, int]:
+    return int(f.total_degree()), len(f)
+
+
+def _independent(at: RealSet, point: Sequence[float], order: Sequence[int]) -> tuple[list[int], list[int]]:
+    """The first equations in an order with independent gradients, and as many variables to be solved for."""
     import numpy
 
     own = Ring(at.variables)
@@ -91,8 +98,8 @@ def _independent(at: RealSet, point: Sequence[float]) -> tuple[list[int], list[i
     gradients = [[float(slope.evaluate(point)) for slope in row] for row in slopes]
     rows: list[int] = []
     basis: list[Any] = []
-    for k, gradient in enumerate(gradients):
-        vector = numpy.array(gradient)
+    for k in order:
+        vector = numpy.array(gradients[k])
         size = numpy.linalg.norm(vector)
         for b in basis:
             vector = vector - (vector @ b) * b
@@ -152,12 +159,12 @@ def _implied(at: RealSet, rows: list[int]) -> dict[str, Any] | None:
     """
     larger = ring([INVERSE, *at.variables])
     gen = larger.gens()[0]
-    product = at.context.constant(1)
+    units = at.context.constant(1)
     for unit in at.units:
-        product = product * unit
+        units = units * unit
     square = [at.equations[k].project_to_context(larger) for k in rows]
     others = [e.project_to_context(larger) for k, e in enumerate(at.equations) if k not in rows]
-    for local in dict.fromkeys(map(str, (at.context.constant(1), product))):
+    for local in dict.fromkeys(map(str, (at.context.constant(1), units))):
         start = [*square, 1 - gen * polynomial(local, at.context).project_to_context(larger)]
         failures: list[Undecided] = []
         with attempt("that equations follow from others", FOLLOWS, failures=failures) as budget:

@@ -26,11 +26,9 @@ def points_leaf(at: RealSet) -> dict[str, Any]:
     ring = Ring(at.variables)
     found = parametrized([Polynomial(ring, e) for e in at.equations if e]).value
     minimal = fmpq_poly(found.minimal)
-    minimal = minimal / minimal.leading_coefficient()
-    below = fmpq_poly(found.denominator)
-    divisor, inverse, _ = below.xgcd(minimal)
-    inverse = inverse * (1 / fmpq(divisor[0]))
-    coordinates = [(fmpq_poly(n) * inverse) % minimal for n in found.numerators]
+    slope = minimal.derivative()
+    _, inverse, _ = fmpq_poly(found.denominator).xgcd(minimal)
+    coordinates = [(fmpq_poly(n) * (inverse * slope % minimal)) % minimal for n in found.numerators]
     form = _form(coordinates, minimal, at)
     data = {
         "form": str(form),
@@ -46,8 +44,9 @@ def _texts(f: fmpq_poly) -> list[str]:
 
 def _form(coordinates: list[fmpq_poly], minimal: fmpq_poly, at: RealSet) -> fmpq_mpoly:
     """The linear form that is the root at its point: a solution of linear equations."""
-    size, target = minimal.degree(), fmpq_poly([0, 1]) % minimal
-    columns = [*coordinates, fmpq_poly([1])]
+    size, slope = minimal.degree(), minimal.derivative()
+    target = fmpq_poly([0, 1]) * slope % minimal
+    columns = [*coordinates, slope]
     matrix = fmpq_mat(size, len(columns) + 1, [f[k] for k in range(size) for f in (*columns, target)])
     reduced, rank = matrix.rref()
     weights = [fmpq(0)] * len(columns)
@@ -70,7 +69,9 @@ def _power(at: RealSet, form: fmpq_mpoly, minimal: fmpq_poly, coordinates: list[
         pairs = zip(powers, f.coeffs(), strict=False)
         return remainder(sum((p * c for p, c in pairs), start=at.context.constant(0)), at.equations)
 
-    vanishing = [put(minimal), *(g - put(r) for g, r in zip(at.context.gens(), coordinates, strict=True))]
+    gens, below = at.context.gens(), put(minimal.derivative())
+    vanishing = [put(minimal)]
+    vanishing += [remainder(g * below - put(r), at.equations) for g, r in zip(gens, coordinates, strict=True)]
     left, power = list(vanishing), 1
     while any(left):
         if power == HIGHEST_POWER:

@@ -13,8 +13,8 @@ import numpy
 from flint import ctx, fmpq_mpoly
 from numpy.typing import NDArray
 
-from singsym.certificates.checker.curves import BITS, ROOT_BITS, UNIT, Tube, Tubes
-from singsym.certificates.checker.points import ball, chart_of, real_roots
+from singsym.certificates.checker.curves import BITS, ROOT_BITS, UNIT, Tube, Tubes, square_system
+from singsym.certificates.checker.points import chart_of, real_points
 from singsym.certificates.checker.polynomials import Rejected, determinant, remainder
 from singsym.certificates.checker.sets import RealSet
 from singsym.certificates.prover.finite import points_leaf
@@ -36,20 +36,21 @@ WIDTHS = (4.0, 8.0)
 NARROWEST = 1e-6
 
 
-def curve_leaf(at: RealSet, based: Based) -> dict[str, Any] | None:
+def curve_leaf(at: RealSet, point: dict[str, Any], based: Based) -> dict[str, Any] | None:
     """`bounded`, `critical` and `loops` of a curve; None where it is not one that the checker counts.
 
-    Raises `Undecided` where arcs are not closed in time.
+    point: as the leaf has it.  Raises `Undecided` where arcs are not closed in time.
     """
-    if len(at.generators) != len(at.variables) - 1 or at.positive or at.nonnegative:
+    own, local = square_system(at, point)
+    if len(own) != len(at.variables) - 1 or at.positive or at.nonnegative:
         return None
     bounded = _bounded(at)
     if bounded is None:
         return None
-    critical, points = _critical(at, based)
+    critical, points = _critical(at, own, local, based)
     if critical is None:
         return None
-    tracker = _Tracker(at)
+    tracker = _Tracker(own, at)
     loops: list[list[Any]] = []
     with ctx.workprec(BITS):
         known: list[Tube] = []
@@ -94,12 +95,14 @@ def _is_definite(f: fmpq_mpoly, own: Sequence[int]) -> bool:
     return bool(values.min() > 1e-9 or values.max() < -1e-9)
 
 
-def _critical(at: RealSet, based: Based) -> tuple[dict[str, Any] | None, list[Any]]:
+def _critical(
+    at: RealSet, square: Sequence[fmpq_mpoly], local: fmpq_mpoly, based: Based
+) -> tuple[dict[str, Any] | None, list[Any]]:
     """Critical points of a coordinate of which there are finitely many, and balls around the real ones."""
     for own in reversed(range(len(at.variables))):
         others = [i for i in range(len(at.variables)) if i != own]
         # not reduced, as it comes apart into factors then
-        found = determinant([[e.derivative(i) for i in others] for e in at.generators], [])
+        found = local * determinant([[e.derivative(i) for i in others] for e in square], [])
         if not remainder(found, at.equations):
             continue
         entries = []
@@ -113,8 +116,7 @@ def _critical(at: RealSet, based: Based) -> tuple[dict[str, Any] | None, list[An
                 entry |= points_leaf(there)
                 _, minimal, coordinates = chart_of(there, entry)
                 with ctx.workprec(ROOT_BITS):
-                    roots = real_roots(minimal)
-                    balls += [[ball(coordinates[n], root) for n in at.variables] for root in roots]
+                    balls += real_points(minimal, [coordinates[n] for n in at.variables])
             entries.append(entry)
         else:
             scale = found.factor()[0]
@@ -130,10 +132,10 @@ def _is_finite(at: RealSet) -> bool:
 class _Tracker:
     """Arcs of one curve."""
 
-    def __init__(self, at: RealSet) -> None:
+    def __init__(self, equations: Sequence[fmpq_mpoly], at: RealSet) -> None:
         ring = Ring(at.variables)
-        self.map = CompiledMap([Polynomial(ring, e) for e in at.generators], ring)
-        self.tubes = Tubes(at)
+        self.map = CompiledMap([Polynomial(ring, e) for e in equations], ring)
+        self.tubes = Tubes(equations)
         self.size = len(at.variables)
 
     def loop(self, start: Floats) -> tuple[list[Any], list[Tube]]:

@@ -7,13 +7,15 @@ minors.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 from math import comb
 from typing import Any
 
-from flint import fmpq_mpoly
+from flint import fmpq, fmpq_mpoly
 
+from singsym.certificates.checker.curves import components
 from singsym.certificates.checker.polynomials import Rejected, remainder
 from singsym.certificates.checker.ranks import bounds_on, possible_types
 from singsym.certificates.checker.rules import derive
@@ -29,6 +31,9 @@ from singsym.effort.attempts import attempt
 from singsym.effort.budget import Undecided, current
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Polynomial, Ring
+from singsym.polynomials.sums_of_squares import squares_less_constant
+from singsym.varieties.decomposition import decompose
+from singsym.varieties.real.proofs.real_consequences import combined
 
 PART, WHOLE = 60.0, 600.0
 """Seconds of work for one part of the configuration space, and for all of it."""
@@ -105,6 +110,10 @@ class _Prover:
         node = self._based(node)
         if self._is_empty(node):
             return
+        if terms := _squares(node.at):
+            (node,) = self.tree.apply(node, "squares", terms=terms)
+            self._on_locus(node, loci)
+            return
         if dimension_above(node.at) == 0:
             self.tree.leaf(node, "points", **points_leaf(node.at))
         else:
@@ -161,13 +170,53 @@ class _Prover:
         if not types:
             raise Undecided("the rank of a matrix is not seen to be at most N")
         data: dict[str, Any] = {"ranks": evidence}
-        if types != {""} and (point := point_leaf(at, self.hints.points)) is not None:
-            data["point"] = point[0]
-            if point[1] == 1 == dimension_above(at) and self.hints.curves:
-                with attempt("components of a curve", PART, failures=self.failures):
-                    if (curve := curve_leaf(at, _based)) is not None:
-                        data["curve"] = curve
+        if types != {""}:
+            data |= self._shown(at)
+            lacks_curve = self._counts_curve(at) and "curve" not in data
+            if ("point" not in data or lacks_curve) and self._along_components(node, "point" in data):
+                return
         self.tree.leaf(node, "ranks", **data)
+
+    def _shown(self, at: RealSet) -> dict[str, Any]:
+        """`point` and `curve` of a set, as far as they are found."""
+        point = point_leaf(at, self.hints.points)
+        if point is None:
+            return {}
+        shown = {"point": point[0]}
+        if point[1] == 1 and self._counts_curve(at):
+            # refused where a loop is not in the set: a unit vanishes on a component
+            with attempt("components of a curve", PART, failures=self.failures), suppress(Rejected):
+                if (curve := curve_leaf(at, point[0], based)) is not None:
+                    components(at, curve, point[0])
+                    shown["curve"] = curve
+        return shown
+
+    def _counts_curve(self, at: RealSet) -> bool:
+        return self.hints.curves and dimension_above(at) == 1
+
+    def _along_components(self, node: Node, apart: bool) -> bool:
+        """A set split on what vanishes on a component, but not on all of it; False where there is nothing.
+
+        Where equations hold with multiplicity, or there are more components, their gradients are dependent.
+        apart: only if no two components meet; otherwise the components of what is split are not counted, as a
+        table counts those of the set as it was.
+        """
+        at, ring, hints = node.at, Ring(node.at.variables), self.hints
+        equations, units = ([Polynomial(ring, p) for p in group if p] for group in (at.equations, at.units))
+        parts = decompose(equations, units, ring=ring).value
+        meet = not all((a.ideal + b.ideal).is_unit().value for a, b in combinations(parts, 2))
+        lists = [[g.value for g in p.generators if remainder(g.value, at.equations)] for p in parts]
+        new = sorted(next(filter(None, lists), []), key=len)
+        if not new or (apart and meet):
+            return False
+        self.hints = replace(hints, curves=hints.curves and not meet)
+        try:
+            rest = self._split(node, new[0], new[1:])
+            if rest is not None:
+                self._ranked(rest)
+        finally:
+            self.hints = hints
+        return True
 
     def _types(self, at: RealSet, evidence: Mapping[str, Any]) -> frozenset[str]:
         """The types that are left; none where a rank is not seen to be at most N yet."""
@@ -211,7 +260,18 @@ def _basis_steps(at: RealSet) -> dict[str, Any]:
     return {"steps": found.steps, "equations": [*kept, *found.equations]}
 
 
-def _based(at: RealSet) -> tuple[RealSet, dict[str, Any]]:
+def _squares(at: RealSet) -> list[list[str]]:
+    """Weights and polynomials whose squares add up to zero on a set, where not all vanish there anyway."""
+    ring = Ring(at.variables)
+    for f in combined([Polynomial(ring, g) for g in at.generators if g]):
+        _, squares, less = squares_less_constant(f) or (0, (), fmpq(1))
+        terms = [*squares, *([(-less, ring.one)] if less < 0 else [])]
+        if less <= 0 and any(remainder(root.value, at.equations) for _, root in terms):
+            return [[str(weight), str(root)] for weight, root in terms]
+    return []
+
+
+def based(at: RealSet) -> tuple[RealSet, dict[str, Any]]:
     """The set with a Groebner basis, and the steps to it."""
     steps = _basis_steps(at)
     return derive(at, steps)[0], steps

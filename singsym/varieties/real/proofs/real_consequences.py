@@ -32,7 +32,7 @@ def real_consequences(
     [c, s - x]
     """
     forced: list[Polynomial] = []
-    for f in _combinations(equations):
+    for f in combined(equations):
         squares = sum_of_squares(f)
         if squares is None:
             continue
@@ -56,7 +56,7 @@ def real_consequences(
     return premises.conclude([p for p in dict.fromkeys(forced) if p not in together])
 
 
-def _combinations(equations: Sequence[Polynomial]) -> Iterator[Polynomial]:
+def combined(equations: Sequence[Polynomial]) -> Iterator[Polynomial]:
     """The equations, their sums and differences, and what is left when the constants of two cancel."""
     yield from equations
     if len(equations) <= 12:
