@@ -19,7 +19,7 @@ class Finding:
 
     types: those that its points can have; points: their number, None where it is not known; low, high: bounds
     of its dimension, -1 for the empty set; components: those of a smooth curve, all zeros of its equations,
-    that is its closure.
+    that is its closure; line: of the leaf, 0 for a set that is left open.
     """
 
     at: RealSet
@@ -28,6 +28,7 @@ class Finding:
     low: int
     high: int
     components: int | None = None
+    line: int = 0
 
     @property
     def closed_components(self) -> int | None:
