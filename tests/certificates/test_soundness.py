@@ -191,10 +191,22 @@ def _lies(case: Case, at: int) -> Iterator[Lines]:
     yield [{"at": at, "rule": "ranks", "ranks": below}]
 
 
+def _larger(line: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    """A leaf whose point has one variable more that is free, and one equation less."""
+    point = line.get("point")
+    for name in point["centre"] if point else ():
+        fixed = point["fixed"] | {name: point["centre"][name]}
+        centre = {other: value for other, value in point["centre"].items() if other != name}
+        for place in point["square"]:
+            square = [k for k in point["square"] if k != place]
+            yield line | {"point": point | {"fixed": fixed, "centre": centre, "square": square}}
+
+
 def _forged(case: Case, honest: Lines) -> Iterator[Lines]:
     """Each set of an honest proof ended by a lie, without what the proof has of its parts."""
     yield honest
-    for number in range(len(honest)):
+    for number, leaf in enumerate(honest):
+        yield from ([*honest[:number], lie, *honest[number + 1 :]] for lie in _larger(leaf))
         at = honest[number]["at"]
         inside = {at}
         for line in honest:
