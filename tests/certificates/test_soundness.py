@@ -193,8 +193,8 @@ def _lies(case: Case, at: int) -> Iterator[Lines]:
 
 def _larger(line: dict[str, Any]) -> Iterator[dict[str, Any]]:
     """A leaf whose point has one variable more that is free, and one equation less."""
-    point = line.get("point")
-    for name in point["centre"] if point else ():
+    point: dict[str, Any] = line.get("point", {})
+    for name in point.get("centre", ()):
         fixed = point["fixed"] | {name: point["centre"][name]}
         centre = {other: value for other, value in point["centre"].items() if other != name}
         for place in point["square"]:
