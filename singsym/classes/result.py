@@ -320,12 +320,15 @@ class Classification:
 
         return picture(self, what, witness=witness, axes=ax)
 
-    def report(self, path: str | Path) -> Path:
-        """Write one HTML page with everything, which loads nothing from elsewhere; raises `OSError`."""
+    def report(self, path: str | Path, certificate: str | Path | None = None) -> Path:
+        """Write one HTML page with everything, which loads nothing from elsewhere; raises `OSError`.
+
+        certificate: a file of one; each class is linked to its lines. `ValueError` where it is rejected.
+        """
         from singsym.output.html.report import report
 
         target = Path(path)
-        target.write_text(report(self), encoding="utf-8")
+        target.write_text(report(self, certificate), encoding="utf-8")
         return target
 
     def _repr_html_(self) -> str:

@@ -124,6 +124,7 @@ def parser() -> argparse.ArgumentParser:
         options.mechanism,
         options.work,
         options.output,
+        options.certificate,
     )
     words = "a web page of each mechanism of the library, and an index"
     add("gallery", "gallery", words, options.work, options.folder).set_defaults(**options.AS_IT_IS)

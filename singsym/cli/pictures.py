@@ -9,6 +9,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from singsym.cli.certificates import write_certificate
 from singsym.cli.mechanisms import placed, read
 from singsym.cli.screen import UserError, drawable, writable
 from singsym.cli.singularities import UNDECIDED, classified
@@ -18,12 +19,16 @@ if TYPE_CHECKING:
 
 
 def run_report(chosen: argparse.Namespace) -> int:
-    """`singsym report MECHANISM -o FILE`: prints the file's name."""
+    """`singsym report MECHANISM -o FILE [--certificate FILE]`: prints the file's name."""
     path = Path(chosen.output or f"{Path(chosen.mechanism).stem}.html")
     writable(path)
+    if chosen.certificate:
+        writable(Path(chosen.certificate))
     result = classified(chosen)
+    if chosen.certificate:
+        write_certificate(result, chosen.certificate)
     try:
-        result.report(path)
+        result.report(path, chosen.certificate)
     except OSError as error:
         raise UserError(f"{path} cannot be written: {error.strerror}") from None
     print(path)

@@ -20,29 +20,6 @@ from singsym.mechanism import loads
 from tests.soundness.exact_ranks import defects
 
 pytestmark = pytest.mark.engines
-FULL = ("2r", "scara", "stanford", "orthogonal-3r", "puma560", "wrist-offset")
-FULL += (
-    "five-bar",
-    "fourbar",
-    "slider-crank",
-    "change-point",
-    "parallelogram",
-    "shaper",
-    "whitworth",
-    "toggle-press",
-    "pantograph",
-)
-
-
-@pytest.mark.parametrize("name", FULL)
-def test_the_table_is_proven_in_full(
-    name: str, certified: Callable[[str], Certificate], tmp_path: Path
-) -> None:
-    found = verify(certified(name).write(tmp_path / name))
-    assert found.complete, found.missing
-    assert "open" not in found.rules
-
-
 OWN = """
 name = "own"
 inputs = ["A"]

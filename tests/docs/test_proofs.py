@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import re
 from collections.abc import Iterator
 from functools import cache
@@ -13,6 +14,9 @@ from typing import Any, get_args
 import pytest
 
 import singsym
+from singsym.certificates.checker import verification
+from singsym.certificates.checker.rules import RULES
+from singsym.certificates.checker.verification import LEAVES
 from singsym.classes.classify import classify
 from singsym.classes.configuration.at import at
 from singsym.classes.solve import solve
@@ -88,6 +92,33 @@ def test_each_row_is_complete() -> None:
             assert all((row[0], row[1])), row
             if section != "Fields of the output":
                 assert re.search(r"`\w+(\.\w+)+`", row[-1]), row
+
+
+CERTIFIED = (
+    "The equations and the ranks",
+    "The classes that there can be",
+    "Ranks on a stratum",
+    "The search is complete",
+    "No",
+    "Yes",
+    "Dimension",
+    "Number of points",
+    "Number of connected components",
+    "The configuration space",
+)
+
+
+def test_each_claim_of_a_table_names_its_rules_or_has_no_leaf() -> None:
+    """The rules are those of the checker, with the fields of its leaf `ranks`; each of them is named."""
+    fields = {"point", "curve"}
+    assert all(f'line.get("{field}")' in inspect.getsource(verification) for field in fields)
+    named = set[str]()
+    for section in CERTIFIED:
+        for row in rows(section):
+            own = set(re.findall(r"`(\w+)`", row[3]))
+            assert bool(own) != (row[3] in ("no leaf yet", "trusted")), row
+            named |= own
+    assert named == {*RULES, *LEAVES, *fields}
 
 
 FIELDS = {re.sub(r"[`]|\s*\(.*\)", "", row[0]): row[1] for row in rows("Fields of the output")}

@@ -21,7 +21,8 @@ class Finding:
 
     types: those that its points can have; points: their number, None where it is not known; low, high: bounds
     of its dimension, -1 for the empty set; components: those of a smooth curve, all zeros of its equations,
-    that is its closure; zero: whether a polynomial vanishes at its points, where that is known exactly.
+    that is its closure; zero: whether a polynomial vanishes at its points, where that is known exactly; line:
+    of the leaf, 0 for a set that is left open.
     """
 
     at: RealSet
@@ -31,6 +32,7 @@ class Finding:
     high: int
     components: int | None = None
     zero: Callable[[fmpq_mpoly], bool] | None = None
+    line: int = 0
 
     @property
     def closed_components(self) -> int | None:

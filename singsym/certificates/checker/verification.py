@@ -9,7 +9,7 @@ import gzip
 import json
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -38,7 +38,8 @@ class Verification:
 
     name: of the mechanism, as the certificate says; proven: one row for the types of each class; claimed:
     what the certificate says it proves; missing: what of that it does not, with the reason; rules: how often
-    each was used; data: the statement that all this is about; trusted: what was not checked.
+    each was used; data: the statement that all this is about; findings: what leaves and open sets show;
+    trusted: what was not checked.
     """
 
     name: str
@@ -47,6 +48,7 @@ class Verification:
     missing: tuple[str, ...]
     rules: Mapping[str, int]
     data: Mapping[str, Any]
+    findings: tuple[Finding, ...]
     trusted: tuple[str, ...] = TRUSTED
 
     @property
@@ -72,14 +74,13 @@ def verify(path: str | Path) -> Verification:
         proof = _Proof(about)
         for entry in lines:
             number = entry[0]
-            proof.add(entry[1])
+            proof.add(*entry)
     except Rejected as error:
         raise Rejected(f"line {number}: {error}") from None
     findings = proof.findings()
     proven = tuple(proven_row(types, findings) for types in all_types(about))
-    return Verification(
-        header["name"], proven, claims, tuple(_missing(claims, proven, proof)), proof.rules, data
-    )
+    missing = tuple(_missing(claims, proven, proof))
+    return Verification(header["name"], proven, claims, missing, proof.rules, data, tuple(findings))
 
 
 def _lines(path: Path) -> Iterator[tuple[int, dict[str, Any]]]:
@@ -110,7 +111,7 @@ class _Proof:
         self.done: list[Finding] = []
         self.rules: Counter[str] = Counter()
 
-    def add(self, line: Mapping[str, Any]) -> None:
+    def add(self, number: int, line: Mapping[str, Any]) -> None:
         """One more line; raises `Rejected` where it is wrong."""
         place, rule = whole_number(line, "at"), line.get("rule")
         if place not in self.open:
@@ -126,7 +127,8 @@ class _Proof:
             self.rules["open"] += 1
             return
         elif rule in LEAVES:
-            self.done += _leaf(self.open[place], self.about, line)
+            found = _leaf(self.open[place], self.about, line)
+            self.done += [replace(finding, line=number) for finding in found]
         else:
             raise Rejected(f"rule: expected one of {', '.join((*RULES, *LEAVES))}, got {str(rule)[:80]}")
         del self.open[place]

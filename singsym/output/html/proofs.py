@@ -10,18 +10,20 @@ from html import escape
 
 from singsym.classes.result import Classification, ClassResult
 from singsym.effort.verdict import described
+from singsym.output.html.certificate import Proof, sentence
 from singsym.output.pieces import counted
 
 
-def proofs(classification: Classification) -> str:
-    """A section for each of the 21 classes."""
-    return "".join(_proof(result) for result in classification.classes)
+def proofs(classification: Classification, proof: Proof | None = None) -> str:
+    """A section for each of the 21 classes; proof: of a certificate, to whose lines they are linked."""
+    return "".join(_section(result, proof) for result in classification.classes)
 
 
-def _proof(result: ClassResult) -> str:
+def _section(result: ClassResult, proof: Proof | None) -> str:
     number, verdict = result.singularity_class.number, result.verdict
     back = f' <a href="#class-{number}">(the class)</a>' if verdict.is_yes else ""
-    lines = "".join(f"<li>{line}</li>" for line in _grounds(result))
+    grounds = [*_grounds(result), sentence(proof, result) if proof else ""]
+    lines = "".join(f"<li>{line}</li>" for line in grounds if line)
     answer = {"yes": "It exists", "no": "It is empty", "undecided": "Undecided"}[str(verdict.answer)]
     certainty = f" ({described(verdict.certainty)})" if not verdict.is_undecided else ""
     return (

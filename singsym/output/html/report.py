@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from html import escape
+from pathlib import Path
 
 from singsym.classes.configuration.null_motions import Motion
 from singsym.classes.result import Classification, ClassResult, Piece, gathered
@@ -16,6 +17,7 @@ from singsym.mechanism.model import JointRate, Mechanism, Space
 from singsym.output.figures.families import families
 from singsym.output.html import mathml as math
 from singsym.output.html import page as html
+from singsym.output.html.certificate import Proof, certificate, linked
 from singsym.output.html.curves import curves
 from singsym.output.html.proofs import proofs
 from singsym.output.pieces import (
@@ -39,8 +41,11 @@ WITNESSES = 24
 """Not more configurations of a class are listed."""
 
 
-def report(classification: Classification) -> str:
+def report(classification: Classification, certified: str | Path | None = None) -> str:
     """The page as text: write it to a file that ends in `.html`; it loads nothing from elsewhere.
+
+    certified: the file of a certificate, to whose lines each class is linked; raises `OSError`, and
+    `ValueError` where it is rejected, or is about other equations.
 
     >>> from singsym.classes.classify import classify
     >>> from singsym.mechanism import load
@@ -50,14 +55,16 @@ def report(classification: Classification) -> str:
     """
     from singsym.output.html.scenes import script, style
 
+    proof = None if certified is None else Proof.of(classification, certified)
     name = _title(classification)
     sections = [
-        ("singularity-set", "Singularity set", _summary(classification)),
+        ("singularity-set", "Singularity set", _summary(classification, proof)),
         ("classes", "Classes", _classes(classification)),
         ("curves", "Singularity curves", curves(classification)),
         ("strata", "Strata", _strata(classification)),
         ("equations", "Equations", _equations(classification)),
-        ("proofs", "Proofs", proofs(classification)),
+        ("proofs", "Proofs", proofs(classification, proof)),
+        ("certificate", "Certificate", certificate(proof) if proof else ""),
     ]
     shown = [(key, title, body) for key, title, body in sections if body]
     links = "".join(f'<li><a href="#{key}">{title}</a></li>' for key, title, _ in shown)
@@ -135,7 +142,7 @@ def _glance(classification: Classification) -> str:
 # -- summary -------------------------------------------------------------------------------------------
 
 
-def _summary(classification: Classification) -> str:
+def _summary(classification: Classification, proof: Proof | None) -> str:
     space = [
         f"<li>Configuration space: dimension {p.extent}, smooth: {escape(p.smooth)}"
         f"{'; ' + escape(p.remark) if p.remark else ''}</li>"
@@ -153,7 +160,7 @@ def _summary(classification: Classification) -> str:
     return (
         f"<ul>{''.join(space)}</ul>"
         "<p>Conditions (4) and (5), det L<sub>I</sub> = 0 and det L<sub>O</sub> = 0, in factors:</p>"
-        f"{loci}<h3>The classes</h3>{_class_table(classification)}{_open(classification)}"
+        f"{loci}<h3>The classes</h3>{_class_table(classification, proof)}{_open(classification)}"
     )
 
 
@@ -174,7 +181,7 @@ def _locus_name(classification: Classification, index: int) -> str:
     return math.terms(classification.lengths.shown(locus.factor), longest=SHORT)
 
 
-def _class_table(classification: Classification) -> str:
+def _class_table(classification: Classification, proof: Proof | None) -> str:
     rows = []
     for result in shown_classes(classification):
         number, verdict = result.singularity_class.number, result.verdict
@@ -188,9 +195,10 @@ def _class_table(classification: Classification) -> str:
             parts_of(result),
             escape(", ".join(result.steps)),
             known_by(classification, number),
+            linked(proof, result) if proof else "",
         )
         rows.append((style, cells))
-    headers = ("class", "types", "there?", "dimension", "parts", "step of §3.2", "known by")
+    headers = ("class", "types", "there?", "dimension", "parts", "step of §3.2", "known by", "certificate")
     table = html.table(headers, rows, "The classes that occur or are open") if rows else ""
     said = []
     for how, numbers in empty_classes(classification).items():

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from html.parser import HTMLParser
+from pathlib import Path
 
 import pytest
 import sympy
 
+from singsym.certificates.prover.writing import Certificate, certificate
 from singsym.classes.classify import classify, classify_equation
 from singsym.kinematics import SymbolicSpace, from_sympy
 from singsym.mechanism import load
@@ -73,3 +76,42 @@ def test_given_equations_have_a_page_without_figures_of_a_mechanism() -> None:
     page = report(classify_equation(None, equation, cache=False))
     assert "Given equations" in page
     assert 'id="class-1"' in page
+
+
+@pytest.mark.engines
+def test_each_class_is_linked_to_the_lines_that_prove_it(tmp_path: Path) -> None:
+    """A four-bar of 2, 4, 5 on 6 has class 1 in four points, see `tests/certificates/test_table.py`."""
+    result = classify(load("fourbar"), cache=False)
+    made = certificate(result)
+    file = made.write(tmp_path / "fourbar.cert")
+    text = result.report(tmp_path / "page.html", file).read_text(encoding="utf-8")
+    leaves = {k: line for k, line in enumerate(made.lines, 1) if line.get("rule") == "points"}
+    page = Page(text)
+    ids = {a["id"] for _, a in page.elements if "id" in a}
+    assert {f"line-{k}" for k in range(3, len(made.lines) + 1)} <= ids
+    there = [c for c in result.classes if c.verdict.is_yes]
+    row = text.split('id="equations"')[0].split("The classes</h3>")[1]
+    found = {int(k) for k in re.findall(r'href="#line-(\d+)"', row)}
+    assert found <= set(leaves)
+    assert len(there) == 1 <= len(found)
+    counts = [int(k) for k in re.findall(r"(\d+) real points? \(RI, IO\)", text)]
+    assert sum(counts) == there[0].points
+    assert "proves the table in full" in text
+    assert 'href="#certificate"' in text.split('id="proof-2"')[1].split("</section>")[0]
+
+
+@pytest.mark.engines
+def test_a_certificate_of_another_mechanism_is_refused(tmp_path: Path) -> None:
+    result = classify(load("slider-crank"), cache=False)
+    file = certificate(classify(load("2r"), cache=False)).write(tmp_path / "2r.cert")
+    with pytest.raises(ValueError, match="other equations"):
+        report(result, file)
+
+
+@pytest.mark.engines
+def test_what_a_certificate_leaves_open_is_said(tmp_path: Path) -> None:
+    result = classify(load("fourbar"), cache=False)
+    file = Certificate(certificate(result).lines[:-1]).write(tmp_path / "short")
+    text = report(result, file)
+    assert "proves a part of the table" in text
+    assert "is left open" in text
