@@ -169,10 +169,16 @@ def _of_modules(equations: Equations) -> Known[tuple[BoxPoint, ...]]:
         try:
             with at_precision(bits):
                 return solving.premises.conclude(tuple(solving.points(bits)))
+        except _Unsolved:
+            raise
         except Undecided as reason:
             current().check("points by modules")
             failure = reason
     raise failure
+
+
+class _Unsolved(Undecided):
+    """A step that needs no values is not solved: balls of more bits do not help."""
 
 
 @dataclass(frozen=True)
@@ -253,7 +259,11 @@ class _Solving:
     def _further(self, step: _Step, known: _Partial, bits: int) -> Iterator[_Partial]:
         if step.alone:
             if step not in self.solved:
-                self.solved[step] = self.premises.take(_alone(step, self.ring))
+                try:
+                    self.solved[step] = self.premises.take(_alone(step, self.ring))
+                except Undecided as reason:
+                    current().check("points by modules")
+                    raise _Unsolved(*reason.args) from None
             for point in self.solved[step]:
                 equations, zeros = (tuple(map(self.ring.convert, g)) for g in (point.equations, point.zeros))
                 yield replace(known, zeros=(*known.zeros, *zeros)).plus(_balls(point, bits), equations)
