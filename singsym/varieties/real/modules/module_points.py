@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from math import prod
 
 from flint import arb
@@ -337,10 +337,16 @@ def _alone(step: _Step, ring: Ring) -> Known[tuple[BoxPoint, ...]]:
         return points_on_tower(equations, module_points, current())
     if many:
         raise Undecided("a module by itself may have too many complex points")
+    found = remember("the points of a module", (own, equations), partial(_by_algebra, equations))
+    return points_on_tower(equations, module_points, current()) if found is None else found
+
+
+def _by_algebra(equations: Equations) -> Known[tuple[BoxPoint, ...]] | None:
+    """The real points of a module by itself in boxes; None where they are not found in time."""
     with attempt("the points of a module by algebra", patience.FIRST_MODULE.work):
         points = _exactly(equations)
         return points.map(lambda found: tuple(box_around(equations, _balls(p, 96)) for p in found))
-    return points_on_tower(equations, module_points, current())
+    return None
 
 
 def _bezout(equations: Equations) -> int:
