@@ -99,11 +99,6 @@ class Realised:
 CertifiedPoints = tuple[RealPoint | BoxPoint, ...]
 
 
-def realise(task: RealTask) -> Realised:
-    """The real side of one stratum and of its images."""
-    return images(*examined(task), task)
-
-
 def examined(task: RealTask) -> tuple[Piece, CertifiedPoints]:
     """What one stratum comes to, without its images, and the points that show it."""
     stratum = task.found.stratum

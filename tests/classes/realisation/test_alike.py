@@ -7,9 +7,9 @@ from dataclasses import replace
 import pytest
 
 from singsym.classes.realisation import alike
-from singsym.classes.realisation.alike import realise_all, together
+from singsym.classes.realisation.alike import AlikeTask, realise_alike, realise_all, together
 from singsym.classes.realisation.certified_configuration import Names
-from singsym.classes.realisation.realisation import RealTask, realise
+from singsym.classes.realisation.realisation import RealTask
 from singsym.classes.running.runner import Runner
 from singsym.classes.strata.branches import Found
 from singsym.classes.strata.ranks import Stratum
@@ -31,7 +31,7 @@ def task(equations: Equations, feasible: RealSystem) -> RealTask:
 def test_what_is_alike_is_realised_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """Each comes to what it does by itself, in its own names."""
     tasks = [task(place, RealSystem(R, ())) for place in PLACES]
-    alone = [realise(t) for t in tasks]
+    alone = [realise_alike(AlikeTask(t)).parts[0] for t in tasks]
     asked, examined = [], alike.examined
     monkeypatch.setattr(alike, "examined", lambda t: (asked.append(t), examined(t))[1])
     found = realise_all(Runner(), tasks, "", Budget())
