@@ -24,11 +24,12 @@ from singsym.classes.conclusions import (
 )
 from singsym.classes.configuration_space import configuration_space, smoothness
 from singsym.classes.findings import Told, tell_conditions
+from singsym.classes.realisation.alike import realise_all
 from singsym.classes.realisation.certified_configuration import Names
 from singsym.classes.realisation.curve_components import Counted, CurveTask, count
 from singsym.classes.realisation.local_coordinates import local_coordinates
 from singsym.classes.realisation.looks import bounded_by, is_open, known_dimensions, merged
-from singsym.classes.realisation.realisation import Realised, RealTask, realise
+from singsym.classes.realisation.realisation import Realised, RealTask
 from singsym.classes.result import Classification, Locus, Piece
 from singsym.classes.running.runner import Interrupted, Runner, running
 from singsym.classes.strata.branches import Branch, Found
@@ -238,7 +239,7 @@ class _Work:
         limits = self.limits
         tasks = [self._task(f, f.stratum.defects.delta) for f in found]
         quick = [replace(task, seconds=limits.part(patience.FIRST_LOOK.work)) for task in tasks]
-        realised = self.runner.map(realise, quick, "real points", self.ends.pieces, self.told.take)
+        realised = realise_all(self.runner, quick, "real points", self.ends.pieces, self.told.take)
         self._look_again(tasks, realised, limits.part(patience.SECOND_LOOK.work), "real points, second look")
         self._look_again(tasks, realised, limits.seconds, "real points, at length", most=1)
         return realised
@@ -291,7 +292,7 @@ class _Work:
             )
             for i in doubtful
         ]
-        looks = self.runner.map(realise, again, stage, self.ends.pieces, self.told.take)
+        looks = realise_all(self.runner, again, stage, self.ends.pieces, self.told.take)
         for i, part in zip(doubtful, looks, strict=True):
             realised[i] = merged(realised[i], part)
 
@@ -331,7 +332,7 @@ class _Work:
             )
             for i in left
         ]
-        whole = dict(zip(left, self.runner.map(realise, tasks, "loci", self.ends.tasks), strict=True))
+        whole = dict(zip(left, realise_all(self.runner, tasks, "loci", self.ends.tasks), strict=True))
         found = []
         for i, piece in enumerate(known):
             if piece is None or not bounded[i]:
@@ -390,7 +391,7 @@ class _Work:
         parts = [with_numbers(part, counted.get(i)) for i, part in enumerate(realised)]
         points = [i for i in own if realised[i].pieces[0].dimension == 0]
         beside = [self._beside(found[i], [p for k in curves for p in realised[k].pieces]) for i in points]
-        counted_points = self.runner.map(realise, beside, "points beside curves", self.ends.tasks)
+        counted_points = realise_all(self.runner, beside, "points beside curves", self.ends.tasks)
         for i, part in zip(points, counted_points, strict=True):
             numbers = [p.points for p in part.pieces if p.verdict.is_yes]
             number = (

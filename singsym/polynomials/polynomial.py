@@ -257,6 +257,23 @@ class Polynomial:
         terms = {m: -c if sum(m[i] for i in places) % 2 else c for m, c in self.terms()}
         return self.ring.from_dict(terms)
 
+    def rename(self, names: Mapping[str, str]) -> Polynomial:
+        """The polynomial with other variables of the ring in place of these; no two become one.
+
+        >>> from singsym.polynomials import Ring
+        >>> x, y = Ring(("x", "y")).gens
+        >>> (x**2 - y).rename({"x": "y", "y": "x"})
+        y^2 - x
+        """
+        moved = [(i, self.ring.index(names[n])) for i, n in enumerate(self.ring.names) if n in names]
+        terms = {}
+        for m, c in self.terms():
+            exponents = [0 if n in names else e for n, e in zip(self.ring.names, m, strict=True)]
+            for i, k in moved:
+                exponents[k] += m[i]
+            terms[tuple(exponents)] = c
+        return self.ring.from_dict(terms)
+
     def substitute(self, values: Mapping[str, Operand]) -> Polynomial:
         """Replace variables by polynomials or rationals of the same ring, all at once.
 

@@ -183,10 +183,14 @@ def _beside(place: Coordinates, rng: Random) -> Polynomial | None:
     module = presentation(place.ring, place.basis, within)
     if module is None:
         return None
-    product = place.ring.one
+    product, u = place.original.one, place.back(place.ring.gens[-1])
     for coefficients in torsion_support(module, rng):
-        product *= place.ring.from_dict({(*(0,) * place.split, i): c for i, c in enumerate(coefficients)})
-    return place.back(product)
+        factor = place.original.zero
+        for c in reversed(coefficients):
+            current().check("decomposition")
+            factor = factor * u + c
+        product *= factor
+    return product
 
 
 def _at_fibre(place: Coordinates, rng: Random) -> Known[Splitting]:

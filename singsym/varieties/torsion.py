@@ -172,21 +172,23 @@ def _determinant(module: Presentation, rng: Random, prime: int) -> nmod_poly:
     """det(u - action - rest(u) Z) modulo the prime, for a random Z, by interpolation."""
     size = len(module.action)
     strips = sorted({a for r in module.rest for a, _ in r})
-    mix = {a: [rng.randrange(prime) for _ in range(size)] for a in strips}
-    action = [[_residue(c, prime) for c in row] for row in module.action]
-    rest = [[(a, b, _residue(c, prime)) for (a, b), c in r.items()] for r in module.rest]
+    place = {a: k for k, a in enumerate(strips)}
+    mix = nmod_mat(len(strips), size, [rng.randrange(prime) for _ in range(len(strips) * size)], prime)
+    action = nmod_mat(size, size, [_residue(c, prime) for row in module.action for c in row], prime)
+    rest = [[(place[a], b, _residue(c, prime)) for (a, b), c in r.items()] for r in module.rest]
     degree = size + sum(max((b for _, b, _ in r), default=0) for r in rest)
     values = []
     for point in range(degree + 1):
-        rows = []
-        for i in range(size):
-            row = [-c for c in action[i]]
-            row[i] += point
-            for a, b, c in rest[i]:
-                scale = c * pow(point, b, prime)
-                row = [e - scale * z for e, z in zip(row, mix[a], strict=True)]
-            rows.append([e % prime for e in row])
-        values.append(nmod_mat(rows, prime).det())
+        current().check("torsion")
+        matrix = (
+            nmod_mat(size, size, [point * (i == j) for i in range(size) for j in range(size)], prime) - action
+        )
+        outside = [[0] * len(strips) for _ in rest]
+        for row, terms in zip(outside, rest, strict=True):
+            for k, b, c in terms:
+                row[k] += c * pow(point, b, prime)
+        shares = nmod_mat(size, len(strips), [e % prime for row in outside for e in row], prime)
+        values.append((matrix - shares * mix).det())
     return _interpolated([int(v) for v in values], prime)
 
 

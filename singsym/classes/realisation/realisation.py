@@ -6,7 +6,7 @@ Hauenstein, Sottile, ACM Trans. Math. Softw. 38 (2012) 28.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
@@ -81,7 +81,7 @@ class RealTask:
 
     def unfinished(self, reason: str) -> Realised:
         """A piece for each image of the stratum, undecided for this reason."""
-        return Realised(tuple(_images(_piece(self, reason), (), self)))
+        return images(_piece(self, reason), (), self)
 
 
 @dataclass(frozen=True)
@@ -99,8 +99,8 @@ class Realised:
 CertifiedPoints = tuple[RealPoint | BoxPoint, ...]
 
 
-def realise(task: RealTask) -> Realised:
-    """The real side of one stratum and of its images: the task that workers run."""
+def examined(task: RealTask) -> tuple[Piece, CertifiedPoints]:
+    """What one stratum comes to, without its images, and the points that show it."""
     stratum = task.found.stratum
     piece = _piece(task, "not examined")
     exclusions = (*task.feasible.exclusions, *stratum.loci)
@@ -109,16 +109,14 @@ def realise(task: RealTask) -> Realised:
     try:
         with current().part(task.seconds, task.memory_mb):
             if task.known is None:
-                piece, points = _realised(piece, system, task)
-            else:
-                if not task.seen:
-                    with attempt("a point of a stratum", share=1 / 2):
-                        piece, points = _realised(piece, system, task)
-                piece, points = _above(piece, points, system, task)
+                return _realised(piece, system, task)
+            if not task.seen:
+                with attempt("a point of a stratum", share=1 / 2):
+                    piece, points = _realised(piece, system, task)
+            return _above(piece, points, system, task)
     except Undecided as reason:
         verdict = piece.verdict if points else Verdict.undecided(str(reason))
-        piece = replace(piece, verdict=verdict, extent=replace(piece.extent, open=str(reason)))
-    return Realised(tuple(_images(piece, points, task)))
+        return replace(piece, verdict=verdict, extent=replace(piece.extent, open=str(reason))), points
 
 
 def _above(
@@ -161,9 +159,10 @@ def _realised(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, 
     return _counted(*_exactly(piece, component_dimension(component, system)), system, stratum.elsewhere)
 
 
-def _images(piece: Piece, points: CertifiedPoints, task: RealTask) -> Iterator[Piece]:
-    """The piece with its configurations for each image; a point that an earlier image has is left out."""
+def images(piece: Piece, points: CertifiedPoints, task: RealTask) -> Realised:
+    """The piece with its points for each image of the stratum; one that an earlier image has is left out."""
     seen: list[RealPoint | BoxPoint] = []
+    pieces: list[Piece] = []
     for reflection in task.found.images:
         own = []
         for point in (p.reflect(reflection) for p in points):
@@ -181,7 +180,8 @@ def _images(piece: Piece, points: CertifiedPoints, task: RealTask) -> Iterator[P
             exclusions=tuple(image(group, reflection) for group in piece.exclusions),
             witnesses=tuple(configuration(p, task.names) for p in own),
         )
-        yield replace(shown, points=len(own), components=len(own)) if piece.points else shown
+        pieces.append(replace(shown, points=len(own), components=len(own)) if piece.points else shown)
+    return Realised(tuple(pieces))
 
 
 def _given(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, CertifiedPoints]:

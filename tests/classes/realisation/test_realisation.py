@@ -8,9 +8,10 @@ from math import isclose, pi
 import pytest
 
 from singsym.classes.classify import classify
+from singsym.classes.realisation.alike import AlikeTask, realise_alike
 from singsym.classes.realisation.certified_configuration import Names
 from singsym.classes.realisation.curve_components import CurveTask, count
-from singsym.classes.realisation.realisation import RealTask, realise
+from singsym.classes.realisation.realisation import Realised, RealTask
 from singsym.classes.strata.branches import Found
 from singsym.classes.strata.ranks import Stratum
 from singsym.classes.taxonomy.types import Defects
@@ -21,6 +22,12 @@ from singsym.elimination.ideal import Ideal
 from singsym.mechanism import load
 from singsym.polynomials import Ring
 from singsym.varieties.real.system import RealSystem
+
+
+def realise(task: RealTask) -> Realised:
+    """What a stratum comes to by itself."""
+    (alone,) = realise_alike(AlikeTask(task)).parts
+    return alone
 
 
 def test_an_extended_joint_has_its_angle_and_a_small_error() -> None:

@@ -12,8 +12,9 @@ import pytest
 
 from singsym.classes import classify as module
 from singsym.classes.classify import classify
+from singsym.classes.realisation import alike
 from singsym.classes.realisation.certified_configuration import Names
-from singsym.classes.realisation.realisation import RealTask, realise
+from singsym.classes.realisation.realisation import RealTask
 from singsym.classes.result import Classification
 from singsym.classes.running.runner import Runner
 from singsym.classes.strata import branches as explore_module
@@ -77,7 +78,10 @@ def test_a_point_of_two_patches_is_counted_once() -> None:
     root = Branch(RankProblem({"L": row, **parts}, 0, 1, 1), plane, (x * y,))
     found = [part for part in search(root, Runner()).found if part.stratum.defects.delta]
     assert len(found) == 2
-    pieces = [piece for part in found for piece in realise(RealTask(part, plane, Names())).pieces]
+    tasks = [RealTask(part, plane, Names()) for part in found]
+    pieces = [
+        p for task in tasks for part in alike.realise_alike(alike.AlikeTask(task)).parts for p in part.pieces
+    ]
     assert sum(piece.points or 0 for piece in pieces) == 1
 
 
@@ -131,9 +135,8 @@ def test_second_run_is_read_from_the_cache(
     def forbidden(*_: object) -> object:
         raise AssertionError("computed again")
 
-    for name in ("realise", "count"):
-        known = getattr(module, name)
-        monkeypatch.setattr(module, name, _named(forbidden, known))
+    monkeypatch.setattr(module, "count", _named(forbidden, module.count))
+    monkeypatch.setattr(alike, "realise_alike", _named(forbidden, alike.realise_alike))
     monkeypatch.setattr("singsym.classes.strata.search.explore", _named(forbidden, explore))
     assert plain(classify(load("change-point"))) == reference
     assert {path: path.stat().st_mtime_ns for path in tmp_path.iterdir()} == stored

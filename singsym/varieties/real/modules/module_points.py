@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from math import prod
 
 from flint import arb
@@ -169,10 +169,16 @@ def _of_modules(equations: Equations) -> Known[tuple[BoxPoint, ...]]:
         try:
             with at_precision(bits):
                 return solving.premises.conclude(tuple(solving.points(bits)))
+        except _Unsolved:
+            raise
         except Undecided as reason:
             current().check("points by modules")
             failure = reason
     raise failure
+
+
+class _Unsolved(Undecided):
+    """A step that needs no values is not solved: balls of more bits do not help."""
 
 
 @dataclass(frozen=True)
@@ -253,7 +259,11 @@ class _Solving:
     def _further(self, step: _Step, known: _Partial, bits: int) -> Iterator[_Partial]:
         if step.alone:
             if step not in self.solved:
-                self.solved[step] = self.premises.take(_alone(step, self.ring))
+                try:
+                    self.solved[step] = self.premises.take(_alone(step, self.ring))
+                except Undecided as reason:
+                    current().check("points by modules")
+                    raise _Unsolved(*reason.args) from None
             for point in self.solved[step]:
                 equations, zeros = (tuple(map(self.ring.convert, g)) for g in (point.equations, point.zeros))
                 yield replace(known, zeros=(*known.zeros, *zeros)).plus(_balls(point, bits), equations)
@@ -327,10 +337,16 @@ def _alone(step: _Step, ring: Ring) -> Known[tuple[BoxPoint, ...]]:
         return points_on_tower(equations, module_points, current())
     if many:
         raise Undecided("a module by itself may have too many complex points")
+    found = remember("the points of a module", (own, equations), partial(_by_algebra, equations))
+    return points_on_tower(equations, module_points, current()) if found is None else found
+
+
+def _by_algebra(equations: Equations) -> Known[tuple[BoxPoint, ...]] | None:
+    """The real points of a module by itself in boxes; None where they are not found in time."""
     with attempt("the points of a module by algebra", patience.FIRST_MODULE.work):
         points = _exactly(equations)
         return points.map(lambda found: tuple(box_around(equations, _balls(p, 96)) for p in found))
-    return points_on_tower(equations, module_points, current())
+    return None
 
 
 def _bezout(equations: Equations) -> int:

@@ -58,6 +58,20 @@ class BoxPoint(EnclosedPoint):
         middles = tuple(-m if n in names else m for n, m in pairs)
         return replace(self, equations=equations, zeros=zeros, middles=middles)
 
+    def rename(self, names: Mapping[str, str]) -> BoxPoint:
+        """The point with the coordinates of these names under those that they become, a permutation."""
+        equations, zeros = (tuple(p.rename(names) for p in group) for group in (self.equations, self.zeros))
+        own = dict(zip(self.ring.names, self.middles, strict=True))
+        turned = own | {names[n]: own[n] for n in names}
+        unknown = {names.get(n, n) for n in self.unknowns}
+        return replace(
+            self,
+            equations=equations,
+            unknowns=tuple(n for n in self.ring.names if n in unknown),
+            middles=tuple(turned[n] for n in self.ring.names),
+            zeros=zeros,
+        )
+
     def refine(self, bits: int) -> BoxPoint:
         """The same point in a box of radius 2^-bits; raises `Undecided` where it cannot be had."""
         if bits <= self.bits:

@@ -5,7 +5,7 @@ Source: Rouillier (1999), see parametrization.py; roots as in roots.py.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -50,6 +50,12 @@ class RealPoint(EnclosedPoint):
             for name, numerator in zip(self.ring.names, self.numerators, strict=True)
         )
         return replace(self, numerators=changed)
+
+    def rename(self, names: Mapping[str, str]) -> RealPoint:
+        """The point with the coordinates of these names under those that they become, a permutation."""
+        own = dict(zip(self.ring.names, self.numerators, strict=True))
+        turned = own | {names[n]: own[n] for n in names}
+        return replace(self, numerators=tuple(turned[n] for n in self.ring.names))
 
     def refine(self, bits: int) -> RealPoint:
         """The same point with boxes of relative radius below 2^-bits."""

@@ -9,6 +9,7 @@ import pytest
 from singsym.effort.budget import Undecided
 from singsym.polynomials import Ring
 from singsym.polynomials.ring import AlgebraicConstant
+from singsym.varieties.real.modules import module_points as by_modules
 from singsym.varieties.real.modules.module_points import has_no_assembly, module_points
 from singsym.varieties.real.points.finite_sets import real_points
 
@@ -42,6 +43,20 @@ def test_points_with_a_multiplicity_are_not_decided() -> None:
     """The second dyad at its limit, where the first one is: a square of four bars of length 1, folded."""
     with pytest.raises(Undecided):
         module_points((X**2 - 2, (X * Y - 1) ** 2, U - Y, V - U, C - V, S - C))
+
+
+def test_a_module_by_itself_is_asked_for_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """x = 3 has nothing to do with the bits of balls: where it is not solved, more of them are not tried."""
+    asked = []
+
+    def unsolved(*step: object) -> None:
+        asked.append(step)
+        raise Undecided("not in time")
+
+    monkeypatch.setattr(by_modules, "_alone", unsolved)
+    with pytest.raises(Undecided, match="not in time"):
+        module_points((X**2 - 9, X * Y - 12, *LINKAGE[:3], C - S))
+    assert len(asked) == 1
 
 
 def test_two_equations_for_six_unknowns() -> None:
