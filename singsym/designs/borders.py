@@ -16,8 +16,8 @@ from dataclasses import dataclass
 from itertools import islice
 
 from singsym.classes.strata.ranks import Stratum
-from singsym.classes.taxonomy.types import SingularityType
-from singsym.design.families import Family
+from singsym.classes.taxonomy.types import SingularityType, feasible_classes
+from singsym.designs.families import Family
 from singsym.effort.budget import Budget, Undecided
 from singsym.effort.verdict import Certainty, Premises
 from singsym.elimination.ideal import Ideal
@@ -29,6 +29,9 @@ from singsym.varieties.real.curves.critical_points import is_bounded
 
 _MOST_MINORS = 40
 """So many minors are taken; fewer may only make the border larger."""
+
+_ALL = 3
+"""A mobility that allows all classes."""
 
 TOGETHER = "fall together"
 MEETS = "meets another class"
@@ -86,16 +89,17 @@ class _Collected:
 
 
 def borders(family: Family, seconds: float | None = 60.0) -> Borders:
-    """The borders of all strata with singularity types; seconds: of work for each of them.
+    """The borders of all strata; seconds: of work for each of them.
 
+    Of the regular configurations only whether there are any, as of all configurations together.
     What comes to no end is open for the types of its stratum.
     """
     found = _Collected(family)
+    for kind in feasible_classes(_ALL):
+        found.open |= {(kind.types, reason): None for reason in family.exploration.doubts(kind.types)}
     bounded = _is_bounded(family)
     for part in family.exploration.found:
         types = part.stratum.defects.types
-        if not types:
-            continue
         try:
             with Budget(work=seconds):
                 _add(found, part.stratum, types, bounded)
@@ -129,7 +133,7 @@ def _add(found: _Collected, stratum: Stratum, types: SingularityType, bounded: b
     """The borders of one stratum; raises `Undecided`."""
     family = found.family
     ring, space = family.space.ring, family.space
-    removed = (*stratum.loci, *stratum.elsewhere, *space.exclusions)
+    removed = (*stratum.loci, *stratum.elsewhere, *space.exclusions) if types else ()
     single = [group[0] for group in removed if len(group) == 1]
     pieces = found.premises.take(decompose(stratum.equations, single, ring=ring))
     for component in pieces:

@@ -1,6 +1,6 @@
 """Where in the space of parameters a class exists: borders, cells and their tables.
 
-Source: borders as in `design.borders`; cells as in `design.line` and `design.plane`.
+Source: borders as in `designs.borders`; cells as in `designs.line` and `designs.plane`.
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ import sympy
 
 from singsym.classes.classify import Limits
 from singsym.classes.running.runner import running
-from singsym.design.borders import Borders, borders
-from singsym.design.families import Family, family
-from singsym.design.line import Root, roots, samples
-from singsym.design.plane import Plane, signs
-from singsym.design.result import Cell, Design
-from singsym.design.sampling import at_samples
+from singsym.designs.borders import Borders, borders
+from singsym.designs.families import Family, family
+from singsym.designs.line import Root, roots, samples
+from singsym.designs.plane import Plane, signs
+from singsym.designs.result import Cell, Design
+from singsym.designs.sampling import at_samples
 from singsym.effort.budget import Budget
 from singsym.effort.progress import Sink, to
 from singsym.elimination.ideal import Ideal

@@ -14,15 +14,15 @@ import sympy
 
 from singsym.classes.result import Classification, ClassResult
 from singsym.classes.taxonomy.types import SingularityType
-from singsym.design.borders import BorderPart, Borders
-from singsym.design.plane import Plane
+from singsym.designs.borders import BorderPart, Borders
+from singsym.designs.plane import Plane
 from singsym.mechanism.model import Mechanism
 
 if TYPE_CHECKING:
     from singsym.output.figures.style import Picture
 
 Entry = tuple[int, str, int | None, int | None, int | None]
-"""Of a class: its number, the answer, its dimension, points and components; all None where it is empty."""
+"""Of a class: its number, the answer, its dimension, points and components, None where there is no such."""
 
 
 @dataclass(frozen=True)
@@ -42,8 +42,15 @@ class Cell:
 
     @cached_property
     def entries(self) -> tuple[Entry, ...]:
-        """What the table of classes says here, of the classes that are not proven empty."""
-        return () if self.classification is None else tuple(map(_entry, _there(self.classification)))
+        """What the table of classes says here, of the classes that are not proven empty.
+
+        One entry of number 0 where there is no configuration at all.
+        """
+        found = self.classification
+        if found is None:
+            return ()
+        there = tuple(map(_entry, _there(found)))
+        return there if there or found.configuration_space else ((0, "no", None, None, None),)
 
 
 @dataclass(frozen=True)
@@ -63,9 +70,18 @@ class Design:
     values: tuple[Cell, ...] = ()
     plane: Plane | None = field(default=None, compare=False)
 
+    @cached_property
+    def doubts(self) -> tuple[tuple[SingularityType, str], ...]:
+        """Types of which it is not proven that they are the same all over a cell, with reasons.
+
+        No types stand for whether there are configurations; where a class occurs in each cell that is known.
+        """
+        seen = all(cell.entries and cell.entries[0][0] for cell in self.cells)
+        return tuple((types, reason) for types, reason in self.borders.open if types or not seen)
+
     def is_constant(self, types: SingularityType) -> bool:
         """Whether occurrence, dimension and numbers of the class with these types are constant over cells."""
-        return not any(types == own for own, _ in self.borders.open)
+        return not any(types == own for own, _ in self.doubts)
 
     @property
     def undecided(self) -> bool:
@@ -74,8 +90,9 @@ class Design:
 
     def open_questions(self) -> Iterator[tuple[str, str]]:
         """What is not decided, each with the reason."""
-        for types, reason in self.borders.open:
-            yield f"whether ({types}) is constant over the cells", reason
+        for types, reason in self.doubts:
+            what = f"({types}) is" if types else "that there are configurations is"
+            yield f"whether {what} constant over the cells", reason
         for cell in (*self.cells, *self.values):
             if cell.classification is None:
                 yield f"the table where {cell.where}", cell.reason

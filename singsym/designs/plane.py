@@ -18,7 +18,7 @@ from itertools import combinations, pairwise
 import networkx
 import numpy as np
 
-from singsym.design.line import Root, roots, samples, simple_between
+from singsym.designs.line import Root, roots, samples, simple_between
 from singsym.polynomials import Polynomial
 from singsym.varieties.real.bounds_of_solutions import sign_within
 
@@ -95,18 +95,22 @@ class Plane:
                     yield (i, self._number(left, y)), (i + 1, self._number(right, y))
                     break
 
-    def _gaps(self, x: float) -> list[Fraction]:
-        """Values of the second parameter between the curves, numerically: where to try to join."""
+    def heights(self, x: float) -> list[float]:
+        """The second parameter's values on the curves over one of the first, numerically, in order."""
         (own, other), found = self.names, list[float]()
         for f in self.curves:
-            places = [f.ring.index(name) for name in (own, other)]
+            i, j = f.ring.index(own), f.ring.index(other)
             coefficients = np.zeros(f.degree(other) + 1)
             for m, c in f.terms():
-                coefficients[m[places[1]]] += float(int(c.p) / int(c.q)) * x ** int(m[places[0]])
+                coefficients[int(m[j])] += int(c.p) / int(c.q) * x ** int(m[i])
             found += [z.real for z in np.roots(coefficients[::-1]) if abs(z.imag) < 1e-5 * (1 + abs(z))]
-        if not found:
+        return sorted(found)
+
+    def _gaps(self, x: float) -> list[Fraction]:
+        """Values of the second parameter between the curves, numerically: where to try to join."""
+        ends = self.heights(x)
+        if not ends:
             return [Fraction(0)]
-        ends = sorted(found)
         gaps = [(a, b) for a, b in pairwise(ends) if b - a > 1e-4 * (1 + abs(a))]
         inner = [simple_between(Fraction(a), Fraction(b)) for a, b in gaps]
         return [Fraction(int(ends[0]) - 2), *inner, Fraction(int(ends[-1]) + 2)]
