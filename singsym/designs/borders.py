@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import islice
+from itertools import combinations, islice
 
 from singsym.classes.strata.ranks import Stratum
 from singsym.classes.taxonomy.types import SingularityType, feasible_classes
@@ -66,7 +66,8 @@ class _Collected:
 
     def __init__(self, family: Family) -> None:
         self.family = family
-        self.premises = Premises(family.exploration.certainty)
+        known = family.exploration
+        self.premises = Premises(known.certainty, "modular" if known.modular else "proven")
         self.reasons: dict[Polynomial, dict[tuple[SingularityType, str], None]] = {}
         self.open: dict[tuple[SingularityType, str], None] = {}
 
@@ -136,6 +137,7 @@ def _add(found: _Collected, stratum: Stratum, types: SingularityType, bounded: b
     removed = (*stratum.loci, *stratum.elsewhere, *space.exclusions) if types else ()
     single = [group[0] for group in removed if len(group) == 1]
     pieces = found.premises.take(decompose(stratum.equations, single, ring=ring))
+    there: list[Component] = []
     for component in pieces:
         left = [_not_zero(found, component, group) for group in removed]
         if not all(left):
@@ -143,6 +145,10 @@ def _add(found: _Collected, stratum: Stratum, types: SingularityType, bounded: b
         if found.project(component.generators, types, SPECIAL):
             continue
         _add_piece(found, component, stratum.equations, types, [g for g in left if g], bounded)
+        there.append(component)
+    for one, two in combinations(there, 2):
+        if not found.project((*one.generators, *two.generators), types, TOGETHER):
+            raise Undecided("two parts of it meet for all values of the parameters")
 
 
 def _not_zero(found: _Collected, component: Component, group: Equations) -> Equations:

@@ -46,8 +46,9 @@ class Family:
 
     @cached_property
     def domain(self) -> tuple[Polynomial, ...]:
-        """Polynomials that are positive exactly in the parameters' ranges."""
-        return tuple(p for p in self.space.positive if not self.moves(p))
+        """Polynomials that are positive inside the parameters' ranges, and nowhere else."""
+        sided = (*self.space.positive, *self.space.nonnegative)
+        return tuple(p for p in sided if not self.moves(p))
 
     def moves(self, polynomial: Polynomial) -> bool:
         """Whether a configuration variable is in it."""
