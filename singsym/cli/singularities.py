@@ -229,6 +229,7 @@ def limits_of(chosen: argparse.Namespace) -> Limits:
 
 
 def resumable(chosen: argparse.Namespace) -> None:
+    """Have an interruption say that finished parts are kept, where they are."""
     if chosen.cache:
         chosen.on_interrupt = "; finished parts are kept: the same command goes on from there"
 
