@@ -40,6 +40,9 @@ class Cell:
     signs: tuple[int, ...] = ()
     places: tuple[tuple[int, int], ...] = ()
 
+    def __repr__(self) -> str:
+        return f"Cell({self.where!r}, {sum(e[0] > 0 for e in self.entries)} classes)"
+
     @cached_property
     def entries(self) -> tuple[Entry, ...]:
         """What the table of classes says here, of the classes that are not proven empty.
@@ -69,6 +72,10 @@ class Design:
     cells: tuple[Cell, ...]
     values: tuple[Cell, ...] = ()
     plane: Plane | None = field(default=None, compare=False)
+
+    def __repr__(self) -> str:
+        names = ", ".join(self.parameters)
+        return f"Design({self.mechanism.name!r} over {names}, {len(self.cells)} cells)"
 
     @cached_property
     def doubts(self) -> tuple[tuple[SingularityType, str], ...]:
