@@ -56,7 +56,7 @@ def design(
     >>> from singsym.mechanism import load
     >>> found = design(load("fourbar"), ["a"], cache=False)
     >>> [(cell.where, [entry[:4] for entry in cell.entries]) for cell in found.cells[:2]]
-    [('0 < a < 5/2', [(1, 'yes', 0, 4)]), ('5/2 < a < 7/2', [(1, 'yes', 0, 4), (2, 'yes', 0, 4)])]
+    [('0 < a < 5/2', [(1, 'yes', 0, 4)]), ('5/2 < a < 7/2', [(1, 'yes', 0, 2), (2, 'yes', 0, 2)])]
     """
     limits, names = limits or Limits(), tuple(dict.fromkeys(parameters))
     symbolic = mechanism.with_parameters(**dict.fromkeys(names))

@@ -71,7 +71,7 @@ def family(
     >>> from singsym.mechanism import load
     >>> found = family(load("fourbar").with_parameters(a=None), "auto", Runner())
     >>> found.parameters, len(found.exploration.found), found.exploration.unexplored
-    (('a',), 12, ())
+    (('a',), 8, ())
     """
     equation = velocity_equation(mechanism, formulation)
     found, space = equation.conditions, equation.space

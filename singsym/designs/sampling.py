@@ -90,7 +90,7 @@ def sweep(
     >>> from singsym.mechanism import load
     >>> rows = sweep(load("fourbar"), {"a": [1, 3]}, cache=False)
     >>> [(row["a"], row["types"], row["points"]) for row in rows]
-    [('1', 'RI, IO', 4), ('3', 'RO, II', 4), ('3', 'RI, IO', 4)]
+    [('1', 'RI, IO', 4), ('3', 'RI, IO', 2), ('3', 'RO, II', 2)]
     """
     names = tuple(values)
     combinations = [dict(zip(names, own, strict=True)) for own in product(*values.values())]
