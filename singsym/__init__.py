@@ -34,6 +34,9 @@ if TYPE_CHECKING:
     from singsym.conditions.conditions import Condition, Conditions
     from singsym.conditions.factor import Factor
     from singsym.conditions.redundant import RedundantChain, redundant_chain
+    from singsym.designs.design import design
+    from singsym.designs.result import Cell, Design
+    from singsym.designs.sampling import sweep
     from singsym.effort.budget import Budget, BudgetExceeded, Cancelled, Undecided
     from singsym.effort.chance import use_seed
     from singsym.effort.progress import Event
@@ -98,6 +101,9 @@ _HOMES = {
     "singsym.conditions.conditions": "Condition Conditions",
     "singsym.conditions.factor": "Factor",
     "singsym.conditions.redundant": "RedundantChain redundant_chain",
+    "singsym.designs.design": "design",
+    "singsym.designs.result": "Cell Design",
+    "singsym.designs.sampling": "sweep",
     "singsym.effort.budget": "Budget BudgetExceeded Cancelled Undecided",
     "singsym.effort.chance": "use_seed",
     "singsym.effort.progress": "Event",
@@ -137,6 +143,7 @@ __all__ = [
     "Budget",
     "BudgetExceeded",
     "Cancelled",
+    "Cell",
     "Certificate",
     "Choice",
     "ClassResult",
@@ -150,6 +157,7 @@ __all__ = [
     "ConstructibleSet",
     "CurveComponent",
     "Defects",
+    "Design",
     "Elimination",
     "Event",
     "Exclusion",
@@ -214,6 +222,7 @@ __all__ = [
     "classify_equation",
     "decompose",
     "define",
+    "design",
     "dumps",
     "engines",
     "feasible_classes",
@@ -237,6 +246,7 @@ __all__ = [
     "singularity_distance",
     "solve",
     "solve_equation",
+    "sweep",
     "use_seed",
     "velocity_equation",
     "verify",

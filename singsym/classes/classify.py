@@ -33,9 +33,10 @@ from singsym.classes.realisation.realisation import Realised, RealTask
 from singsym.classes.result import Classification, Locus, Piece
 from singsym.classes.running.runner import Interrupted, Runner, running
 from singsym.classes.strata.branches import Branch, Found
-from singsym.classes.strata.ranks import RankProblem, Stratum
+from singsym.classes.strata.ranks import Stratum
 from singsym.classes.strata.reflections import image, reflections
-from singsym.classes.strata.search import Exploration, Loci, SingularLoci, search
+from singsym.classes.strata.search import Exploration, search
+from singsym.classes.strata.start import feasible_set, rank_problem, singular_loci
 from singsym.classes.taxonomy.types import Defects
 from singsym.classes.unit_border import Border
 from singsym.conditions.conditions import Conditions, conditions
@@ -178,8 +179,7 @@ class _Work:
 
     @cached_property
     def feasible(self) -> RealSystem:
-        space = self.equation.space
-        return RealSystem(space.ring, (), space.exclusions, space.positive, space.nonnegative)
+        return feasible_set(self.equation.space)
 
     @cached_property
     def told(self) -> Told:
@@ -195,13 +195,8 @@ class _Work:
         """The cosines and sines among the variables."""
         return tuple(unit_circles(self.equation.space.equations))
 
-    def problem(self) -> RankProblem:
-        """The four matrices of the reduced velocity equation."""
-        matrices = {name: self.conditions.matrix(name) for name in ("L", "L_I", "L_O", "L_p")}
-        return RankProblem(matrices, self.conditions.reduction.constant, self.equation.N, self.equation.n)
-
     def classification(self, started: float) -> Classification:
-        problem = self.problem()
+        problem = rank_problem(self.conditions)
         root = Branch(
             problem,
             self.feasible,
@@ -210,7 +205,7 @@ class _Work:
             seconds=self.limits.seconds,
             memory_mb=self.limits.memory_mb,
         )
-        explored = search(root, self.runner, self._singular_loci(), self.ends.search)
+        explored = search(root, self.runner, singular_loci(self.conditions), self.ends.search)
         pieces = self._with_components(explored.found, self._pieces(explored.found))
         loci = self._loci(explored, pieces)
         classes = classes_of(explored, pieces, self.equation.n, self._counting)
@@ -295,18 +290,6 @@ class _Work:
         looks = realise_all(self.runner, again, stage, self.ends.pieces, self.told.take)
         for i, part in zip(doubtful, looks, strict=True):
             realised[i] = merged(realised[i], part)
-
-    def _singular_loci(self) -> SingularLoci | None:
-        """The alternatives of (4), (5), (iii) and (vi), where they are known."""
-        found = [self._alternatives(label) for label in ("4", "5", "iii", "vi")]
-        inputs, outputs, passive, mobility = found
-        return None if inputs is None or outputs is None else SingularLoci(inputs, outputs, passive, mobility)
-
-    def _alternatives(self, label: str) -> Loci | None:
-        condition = self.conditions[label]
-        if condition.everywhere:
-            return ((),)
-        return None if condition.alternatives is None else condition.polynomials
 
     # -- loci ----------------------------------------------------------------------------------------
 

@@ -221,6 +221,27 @@ def trajectory(command: argparse.ArgumentParser) -> None:
     command.add_argument("-o", "--output", metavar="FILE", help="a picture of the margins to write")
 
 
+def varied(command: argparse.ArgumentParser) -> None:
+    """The parameters of a design."""
+    choice = command.add_mutually_exclusive_group(required=True)
+    choice.add_argument(
+        "--parameters", metavar="NAMES", help="one or two, as a,b: exact borders, and cells with their tables"
+    )
+    choice.add_argument(
+        "--values",
+        action="append",
+        metavar="NAME=VALUES",
+        help="values to try, as a=1,3/2,2: tables at all combinations, no claim between (repeatable)",
+    )
+    command.add_argument("-o", "--output", metavar="FILE", help="a chart to write, of --parameters")
+
+
+def tables(command: argparse.ArgumentParser) -> None:
+    """How tables of many samples are printed."""
+    formats("text", "latex", "json", "csv")(command)
+    standalone(command)
+
+
 def language(command: argparse.ArgumentParser) -> None:
     """The language of exported code."""
     command.add_argument(

@@ -28,7 +28,6 @@ EXAMPLES = """\
 examples:
   singsym classify zlatanov-2dof              which classes occur, where, how often
   singsym conditions stewart-gough            the factored singularity conditions
-  singsym classify zlatanov-hybrid --set a=3/2 --workers 2
   singsym conditions robot.urdf --tip tool0 --lock elbow=0
   singsym new mine && singsym check mine.toml && singsym classify mine.toml
 
@@ -92,6 +91,8 @@ def parser() -> argparse.ArgumentParser:
     words = "conditions (4), (5), (i)-(viii), factored"
     add("conditions", "singularities", words, options.mechanism, printed, options.standalone, options.expand)
     add("classify", "singularities", "the singularity set and its classes", *whole, options.certificate)
+    words = "for which lengths which classes occur, and a chart"
+    add("design", "design", words, options.mechanism, options.work, options.tables, options.varied)
     words = "check a certificate, without any search, and say what it proves"
     add("verify", "certificates", words, options.certified, short)
     add("solve", "singularities", "the solution sets of some conditions", *whole, options.labels)

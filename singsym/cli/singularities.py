@@ -101,14 +101,14 @@ def classified(chosen: argparse.Namespace) -> Classification:
 
     mechanism = read(chosen)
     placed(mechanism, chosen.formulation)
-    _resumable(chosen)
-    with engines.use(*chosen.engines), progress_shown(), _cluster(chosen) as executor:
+    resumable(chosen)
+    with engines.use(*chosen.engines), progress_shown(), cluster_of(chosen) as executor:
         return classify(
             mechanism,
             formulation=chosen.formulation,
             workers=chosen.workers,
             executor=executor,
-            limits=_limits(chosen),
+            limits=limits_of(chosen),
             cache=chosen.cache,
         )
 
@@ -158,17 +158,17 @@ def run_solve(chosen: argparse.Namespace) -> int:
 
     mechanism = read(chosen)
     placed(mechanism, chosen.formulation)
-    _resumable(chosen)
+    resumable(chosen)
     asked = [own for label in chosen.labels for own in (CUSPS if label == "cusps" else (label,))]
     try:
-        with engines.use(*chosen.engines), progress_shown(), _cluster(chosen) as executor:
+        with engines.use(*chosen.engines), progress_shown(), cluster_of(chosen) as executor:
             found = solve(
                 mechanism,
                 *dict.fromkeys(asked),
                 formulation=chosen.formulation,
                 workers=chosen.workers,
                 executor=executor,
-                limits=_limits(chosen),
+                limits=limits_of(chosen),
                 cache=chosen.cache,
             )
     except Interrupted as interruption:
@@ -200,7 +200,7 @@ def _emit_solutions(mechanism: Mechanism, found: Sequence[Solution], chosen: arg
 
 
 @contextmanager
-def _cluster(chosen: argparse.Namespace) -> Iterator[Executor | None]:
+def cluster_of(chosen: argparse.Namespace) -> Iterator[Executor | None]:
     """The cluster of --scheduler; None without, where the work is done by processes of this machine."""
     if chosen.scheduler is None:
         yield None
@@ -214,7 +214,7 @@ def _cluster(chosen: argparse.Namespace) -> Iterator[Executor | None]:
         raise UserError(str(error)) from None
 
 
-def _limits(chosen: argparse.Namespace) -> Limits:
+def limits_of(chosen: argparse.Namespace) -> Limits:
     """The time for everything, a tenth of it at most for each part; the defaults without --budget.
 
     What has passed since the command began counts, too.
@@ -228,7 +228,8 @@ def _limits(chosen: argparse.Namespace) -> Limits:
     return Limits(usual.part(chosen.budget / 10), clock=left)
 
 
-def _resumable(chosen: argparse.Namespace) -> None:
+def resumable(chosen: argparse.Namespace) -> None:
+    """Have an interruption say that finished parts are kept, where they are."""
     if chosen.cache:
         chosen.on_interrupt = "; finished parts are kept: the same command goes on from there"
 

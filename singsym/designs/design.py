@@ -1,0 +1,192 @@
+"""Where in the space of parameters a class exists: borders, cells and their tables.
+
+Source: borders as in `designs.borders`; cells as in `designs.line` and `designs.plane`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import pairwise
+from typing import Any
+
+import sympy
+
+from singsym.classes.classify import Limits
+from singsym.classes.running.runner import running
+from singsym.designs.borders import Borders, borders
+from singsym.designs.families import Family, family
+from singsym.designs.line import Root, roots, samples
+from singsym.designs.plane import Plane, signs
+from singsym.designs.result import Cell, Design
+from singsym.designs.sampling import at_samples
+from singsym.effort.budget import Budget
+from singsym.effort.progress import Sink, to
+from singsym.elimination.ideal import Ideal
+from singsym.mechanism.model import Mechanism
+from singsym.mechanism.problems import MechanismError, Problem
+from singsym.polynomials import Polynomial
+
+_BORDER = 20.0
+"""Seconds of work for the borders of one stratum."""
+
+
+def design(
+    mechanism: Mechanism,
+    parameters: Sequence[str],
+    *,
+    formulation: str = "auto",
+    workers: int = 1,
+    executor: Executor | None = None,
+    limits: Limits | None = None,
+    cache: bool = True,
+    progress: Sink | None = None,
+) -> Design:
+    """The values of one or two parameters at which the table of classes changes, and the cells between them.
+
+    parameters: names; their values are taken away, their ranges are kept, all others need a value.
+    Each cell has the classification at an exact sample; `Design.is_constant` says of which classes it is
+    proven to be that of the whole cell.  limits: of each classification, `seconds` also of each branch of
+    the search; workers, executor, cache, progress: as for `classify`.
+    Raises `MechanismError` for parameters that are not there, none or more than two, or others without a
+    value, and for a mechanism that cannot be placed.
+
+    >>> from singsym.mechanism import load
+    >>> found = design(load("fourbar"), ["a"], cache=False)
+    >>> [(cell.where, [entry[:4] for entry in cell.entries]) for cell in found.cells[:2]]
+    [('0 < a < 5/2', [(1, 'yes', 0, 4)]), ('5/2 < a < 7/2', [(1, 'yes', 0, 2), (2, 'yes', 0, 2)])]
+    """
+    limits, names = limits or Limits(), tuple(dict.fromkeys(parameters))
+    symbolic = mechanism.with_parameters(**dict.fromkeys(names))
+    _check(symbolic, names)
+    with to(progress):
+        with running(workers, executor, limits.clock, cache) as runner:
+            whole = Budget(limits.clock, work=limits.total)
+            found = family(symbolic, formulation, runner, seconds=limits.seconds, budget=whole)
+            border = borders(found, limits.part(_BORDER))
+        parts = _line(found, border) if len(names) == 1 else _plane(found, border, (names[0], names[1]))
+        chosen = [cell for cell in (*parts.cells, *parts.values) if not cell.reason]
+        tables = at_samples(
+            symbolic, [cell.sample for cell in chosen], formulation, limits, workers, executor, cache
+        )
+    done = dict(zip(map(id, chosen), tables, strict=True))
+
+    def filled(cell: Cell) -> Cell:
+        if id(cell) not in done:
+            return cell
+        return replace(cell, classification=done[id(cell)].classification, reason=done[id(cell)].reason)
+
+    dividing = tuple(part for part in border.parts if part.polynomial in parts.dividing)
+    return Design(
+        symbolic,
+        names,
+        border,
+        dividing,
+        tuple(map(filled, parts.cells)),
+        tuple(map(filled, parts.values)),
+        parts.plane,
+    )
+
+
+def _check(mechanism: Mechanism, names: tuple[str, ...]) -> None:
+    if not 1 <= len(names) <= 2:
+        found = ", ".join(names) or "none"
+        expected = "one or two parameters; of more, singsym.sweep takes samples"
+        raise MechanismError([Problem("parameters", found, expected, file=mechanism.origin)])
+    others = [p.name for p in mechanism.parameters if p.value is None and p.name not in names]
+    if others:
+        expected = "a value, as it is not one of those to be varied"
+        raise MechanismError(
+            [Problem(f"parameters.{name}", "no value", expected, file=mechanism.origin) for name in others]
+        )
+
+
+@dataclass(frozen=True)
+class _Parts:
+    """Cells without their tables, and which factors of the border divide them."""
+
+    cells: tuple[Cell, ...]
+    values: tuple[Cell, ...]
+    dividing: frozenset[Polynomial]
+    plane: Plane | None = None
+
+
+def _edges(found: Family) -> list[Polynomial]:
+    """Polynomials in the parameters that vanish where a range ends."""
+    relations = found.space.ring.relations
+    edges = []
+    for p in found.domain:
+        projected = Ideal(found.space.ring, (*relations, p)).eliminate(found.others).value
+        edges += [found.base.convert(g) for g in projected.generators if g]
+    return edges
+
+
+def _inside(found: Family, sample: dict[str, Fraction]) -> bool:
+    """Whether values of the parameters are in their ranges."""
+    return all(bool(p.substitute(sample).to_sympy() > 0) for p in found.domain)
+
+
+def _line(found: Family, border: Borders) -> _Parts:
+    (name,) = found.parameters
+    edges = _edges(found)
+    ends = roots([*(part.polynomial for part in border.parts), *edges], name)
+    inner = samples(ends)
+    within = [_inside(found, {name: x}) for x in inner]
+    cells = []
+    for k, x in enumerate(inner):
+        if within[k]:
+            low = ends[k - 1] if k else None
+            high = ends[k] if k < len(ends) else None
+            cells.append(Cell({name: sympy.Rational(x)}, _interval(name, low, high), None))
+    borders_inside = [ends[k] for k, (a, b) in enumerate(pairwise(within)) if a and b]
+    values = tuple(_value(name, root) for root in borders_inside)
+    return _Parts(tuple(cells), values, frozenset(root.polynomial for root in borders_inside))
+
+
+def _interval(name: str, low: Root | None, high: Root | None) -> str:
+    left = f"{_shown(low)} < " if low else ""
+    right = f" < {_shown(high)}" if high else ""
+    return f"{left}{name}{right}"
+
+
+def _shown(root: Root) -> str:
+    return f"{float(root):.6g}" if root.value is None else str(root.value)
+
+
+def _value(name: str, root: Root) -> Cell:
+    if root.value is None:
+        reason = f"it is a root of degree {root.polynomial.total_degree}, which is not put in"
+        return Cell({}, f"{name} = {float(root):.6g}...", None, reason)
+    return Cell({name: root.value}, f"{name} = {root.value}", None)
+
+
+def _plane(found: Family, border: Borders, names: tuple[str, str]) -> _Parts:
+    own = [part.polynomial for part in border.parts]
+    factors = [f for p in _edges(found) for f, _ in p.factors()]
+    plane = Plane(names, tuple(dict.fromkeys((*own, *factors))))
+    chosen: list[tuple[tuple[tuple[int, int], ...], dict[str, Fraction]]] = []
+    for places in plane.components:
+        points = (dict(zip(names, plane.sample(place), strict=True)) for place in places)
+        sample = min(points, key=_length)
+        if _inside(found, sample):
+            chosen.append((places, sample))
+    found_signs = [signs(own, sample) for _, sample in chosen]
+    dividing = [k for k in range(len(own)) if len({row[k] for row in found_signs}) > 1]
+    cells = tuple(
+        Cell(
+            {name: sympy.Rational(x) for name, x in sample.items()},
+            f"cell {number}",
+            None,
+            signs=tuple(row[k] for k in dividing),
+            places=places,
+        )
+        for number, ((places, sample), row) in enumerate(zip(chosen, found_signs, strict=True), 1)
+    )
+    return _Parts(cells, (), frozenset(own[k] for k in dividing), plane)
+
+
+def _length(sample: dict[str, Any]) -> tuple[int, Fraction]:
+    """Short samples first."""
+    return sum(x.denominator for x in sample.values()), sum(map(abs, sample.values()), Fraction(0))

@@ -1,0 +1,115 @@
+"""Classifications at chosen values of parameters, side by side: the cells' samples, and sweeps.
+
+Source: singsym's own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from itertools import product
+from typing import Any
+
+from singsym.classes.classify import Limits, classify
+from singsym.classes.result import Classification
+from singsym.classes.running.runner import running
+from singsym.effort.progress import Sink, to
+from singsym.mechanism.model import Mechanism
+
+
+@dataclass(frozen=True)
+class Sampled:
+    """A classification, or the reason why there is none."""
+
+    classification: Classification | None
+    reason: str = ""
+
+    @property
+    def provisional(self) -> bool:
+        """Whether more time could say more."""
+        return self.classification is None or self.classification.undecided
+
+
+@dataclass(frozen=True)
+class Sample:
+    """A mechanism to be classified."""
+
+    mechanism: Mechanism
+    formulation: str
+    limits: Limits
+    cache: bool
+
+    def unfinished(self, reason: str) -> Sampled:
+        """No classification, for this reason."""
+        return Sampled(None, reason)
+
+
+def sampled(sample: Sample) -> Sampled:
+    """The task that workers run."""
+    found = classify(
+        sample.mechanism, formulation=sample.formulation, limits=sample.limits, cache=sample.cache
+    )
+    return Sampled(found)
+
+
+def at_samples(
+    mechanism: Mechanism,
+    values: Sequence[Mapping[str, Any]],
+    formulation: str,
+    limits: Limits,
+    workers: int,
+    executor: Executor | None,
+    cache: bool,
+) -> list[Sampled]:
+    """The classifications at values of the parameters, in their order."""
+    tasks = [Sample(mechanism.with_parameters(**own), formulation, limits, cache) for own in values]
+    with running(workers, executor, limits.clock, False) as runner:
+        return runner.map(sampled, tasks, "samples")
+
+
+def sweep(
+    mechanism: Mechanism,
+    values: Mapping[str, Sequence[Any]],
+    *,
+    formulation: str = "auto",
+    workers: int = 1,
+    executor: Executor | None = None,
+    limits: Limits | None = None,
+    cache: bool = True,
+    progress: Sink | None = None,
+) -> list[dict[str, Any]]:
+    """The class tables at all combinations of chosen values, as rows for `pandas.DataFrame`.
+
+    values: for each parameter those to take, as for `Mechanism.with_parameters`.  A row has the parameters,
+    and `class`, `types`, `verdict`, `certainty`, `dimension`, `points`, `components` of a class that is not
+    proven empty; a sample of which nothing is there, or that came to no end, has one row.  Nothing is said
+    of values between the samples.  workers, executor, limits, cache, progress: as for `classify`.
+    Raises `MechanismError` for an unknown parameter, or for values that no mechanism can have.
+
+    >>> from singsym.mechanism import load
+    >>> rows = sweep(load("fourbar"), {"a": [1, 3]}, cache=False)
+    >>> [(row["a"], row["types"], row["points"]) for row in rows]
+    [('1', 'RI, IO', 4), ('3', 'RI, IO', 2), ('3', 'RO, II', 2)]
+    """
+    names = tuple(values)
+    combinations = [dict(zip(names, own, strict=True)) for own in product(*values.values())]
+    with to(progress):
+        found = at_samples(mechanism, combinations, formulation, limits or Limits(), workers, executor, cache)
+    return [
+        row
+        for own, one in zip(combinations, found, strict=True)
+        for row in class_rows({name: str(value) for name, value in own.items()}, one)
+    ]
+
+
+def class_rows(values: Mapping[str, str], found: Sampled) -> list[dict[str, Any]]:
+    """A row for each class that is not proven empty, one without a class where there is none."""
+    empty = dict.fromkeys(("class", "types", "dimension", "points", "components"))
+    if found.classification is None:
+        return [{**values, **empty, "verdict": "undecided", "certainty": "undecided", "reason": found.reason}]
+    kept = ("class", "types", "verdict", "certainty", "dimension", "points", "components", "reason")
+    rows = [row for row in found.classification.table() if row["verdict"] != "no"]
+    if not rows:
+        return [{**values, **empty, "verdict": "no", "certainty": "proven", "reason": "no class occurs"}]
+    return [{**values, **{name: row[name] for name in kept}} for row in rows]

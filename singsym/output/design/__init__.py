@@ -1,0 +1,4 @@
+"""Designs as pages, plain data, LaTeX and charts.
+
+Source: singsym's own.
+"""

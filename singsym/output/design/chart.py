@@ -1,0 +1,157 @@
+"""The cells of a design over its parameters, coloured by their tables.
+
+Source: singsym's own; borders and cells are exact, their curves are drawn in doubles.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from singsym.designs.plane import Plane
+from singsym.designs.result import Cell, Design
+from singsym.output.design.page import table_text
+from singsym.output.figures.style import INK, PALE, PAPER, SERIES, Picture, entitle, paper
+
+_STEPS = 12
+_BEYOND = 0.25
+"""So much of a chart's width is drawn beyond the last border."""
+
+
+def plot_design(found: Design, axes: Any = None) -> Picture:
+    """The space of one or two parameters, one colour for each table of classes; white: no singularity,
+    grey: no configuration.
+
+    axes: of matplotlib to draw on; None: those of a new figure.  What lies beyond the last border of an
+    unbounded range is cut off.
+    """
+    from matplotlib.patches import Patch
+
+    alone = axes is None
+    own = paper(axes, 7.2, 2.2 if found.plane is None else 6.4)
+    colours = _colours(found)
+    if found.plane is None:
+        _draw_line(own, found, colours)
+    else:
+        _draw_plane(own, found, found.plane, colours)
+    handles = [
+        Patch(facecolor=colours[table], edgecolor=INK, alpha=0.45, label=table_text(table))
+        for table in colours
+    ]
+    where = {"loc": "outside lower center"} if alone else {"loc": "best"}
+    (own.figure if alone else own).legend(handles=handles, fontsize=8, frameon=False, **where)
+    name = found.mechanism.title or found.mechanism.name
+    title = f"{name}: classes over {', '.join(found.parameters)}"
+    entitle(own, title, alone=alone)
+    described = "; ".join(f"{cell.where}: {table_text(cell.entries)}" for cell in found.cells)
+    return Picture(own.figure, title, f"Cells of the parameters. {described}.")
+
+
+def _colours(found: Design) -> dict[Any, str]:
+    """A colour for each table of the cells."""
+    tables = found.tables()
+    others = [table for table in tables if table and table[0][0]]
+    colours = {table: SERIES[k % len(SERIES)] for k, table in enumerate(others)}
+    return {table: colours.get(table, PALE if table else PAPER) for table in tables}
+
+
+def _draw_line(axes: Any, found: Design, colours: dict[Any, str]) -> None:
+    name = found.parameters[0]
+    ends = [float(cell.sample[name]) for cell in found.values if cell.sample]
+    samples = [float(cell.sample[name]) for cell in found.cells]
+    ticks = sorted(ends)
+    low, high = min(samples + ends), max(samples + ends)
+    margin = _BEYOND * (high - low or 1.0)
+    inner = [float(cell.where.rpartition("= ")[2].rstrip(".")) for cell in found.values if not cell.sample]
+    cuts = [max(0.0, low - margin) if low > 0 else low - margin, *sorted(ends + inner), high + margin]
+    for cell, left, right in zip(found.cells, cuts, cuts[1:], strict=False):
+        axes.axvspan(left, right, facecolor=colours[cell.entries], alpha=0.45)
+        axes.text((left + right) / 2, 0.5, _short(cell), ha="center", va="center", fontsize=8, color=INK)
+    for x in (*ends, *inner):
+        axes.axvline(x, color=INK, lw=1.0)
+    axes.set_xlim(cuts[0], cuts[-1])
+    axes.set_ylim(0, 1)
+    axes.set_yticks([])
+    if ticks:
+        axes.set_xticks(ticks, [f"{x:g}" for x in ticks])
+    axes.set_xlabel(name)
+
+
+def _short(cell: Cell) -> str:
+    """Numbers of points or components by class."""
+    return "\n".join(
+        f"{number}: {'' if points is None and components is None else points or components}".rstrip(": ")
+        for number, _, _, points, components in cell.entries
+        if number
+    )
+
+
+def _draw_plane(axes: Any, found: Design, plane: Plane, colours: dict[Any, str]) -> None:
+    x_name, y_name = plane.names
+    places = {place: cell for cell in found.cells for place in cell.places}
+    walls = [float(wall) for wall in plane.walls]
+    stacks = sorted({i for i, _ in places})
+    xs = [float(plane.stacks[i][0]) for i in stacks]
+    left = walls[stacks[0] - 1] if stacks[0] else min(xs) - 1
+    right = walls[stacks[-1]] if stacks[-1] < len(walls) else max(xs) + _BEYOND * (max(xs) - left)
+    ys = [float(plane.sample(place)[1]) for place in places]
+    low, high = _vertical(plane, places, ys)
+    cuts = [left, *walls[stacks[0] : stacks[-1]], right]
+    for i, a, b in zip(stacks, cuts, cuts[1:], strict=False):
+        grid = np.linspace(a, b, _STEPS + 2)[1:-1]
+        count = len(plane.stacks[i][1]) - 1
+        rows = [(x, h) for x in grid if len(h := plane.heights(float(x))) == count]
+        if not rows:
+            continue
+        width = (b - a) / (_STEPS + 1)
+        x = np.array([r[0] for r in rows])
+        heights = np.array([r[1] for r in rows]).reshape(len(rows), count)
+        x, heights = _to_ends(x, heights, a, b, width)
+        for j in range(count + 1):
+            cell = places.get((i, j))
+            if cell is not None:
+                under = heights[:, j - 1] if j else np.full(len(x), low)
+                over = heights[:, j] if j < count else np.full(len(x), high)
+                colour = colours[cell.entries]
+                axes.fill_between(x, under, over, facecolor=colour, alpha=0.45, lw=0)
+    _draw_borders(axes, found, (left, right), (low, high))
+    for cell in found.cells:
+        x0, y0 = (float(cell.sample[name]) for name in plane.names)
+        if left < x0 < right and low < y0 < high:
+            axes.text(
+                x0, y0, cell.where.removeprefix("cell "), fontsize=8, color=INK, ha="center", va="center"
+            )
+    axes.set_xlim(left, right)
+    axes.set_ylim(low, high)
+    axes.set_xlabel(x_name)
+    axes.set_ylabel(y_name)
+
+
+def _vertical(plane: Plane, places: dict[Any, Cell], ys: list[float]) -> tuple[float, float]:
+    """The ends of the second parameter's axis: the ranges, or a little beyond the samples."""
+    bounded = all(j for _, j in places)
+    lows = [plane.heights(float(plane.stacks[i][0]))[j - 1] for i, j in places if j]
+    return (min(lows) if bounded else min(ys) - 1), max(ys)
+
+
+def _to_ends(x: Any, h: Any, a: float, b: float, width: float) -> tuple[Any, Any]:
+    """Curves drawn on to the walls as straight lines."""
+    if len(x) < 2:
+        return x, h
+    first = h[0] + (h[0] - h[1]) / (x[1] - x[0]) * (x[0] - a)
+    last = h[-1] + (h[-1] - h[-2]) / (x[-1] - x[-2]) * (b - x[-1])
+    near = [x[0] - a < 1.5 * width, b - x[-1] < 1.5 * width]
+    if near[0]:
+        x, h = np.r_[a, x], np.vstack([first, h])
+    if near[1]:
+        x, h = np.r_[x, b], np.vstack([h, last])
+    return x, h
+
+
+def _draw_borders(axes: Any, found: Design, across: tuple[float, float], up: tuple[float, float]) -> None:
+    """The borders that divide the ranges, as the zeros of their polynomials."""
+    x, y = np.meshgrid(np.linspace(*across, 240), np.linspace(*up, 240))
+    for part in found.dividing:
+        z = part.polynomial.evaluate([x, y])
+        axes.contour(x, y, z, levels=[0.0], colors=[INK], linewidths=1.1)

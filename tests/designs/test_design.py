@@ -1,0 +1,138 @@
+"""Borders of dimensions against lengths that textbooks and triangles give.
+
+Source: F. Grashof, Theoretische Maschinenlehre (1883): a four-bar linkage can lie flat, and its type can
+change, only where a sum or difference of its sides vanishes; slider-cranks by right triangles.
+"""
+
+from fractions import Fraction
+from itertools import product
+
+import pytest
+
+import singsym
+from singsym.classes.running.runner import Runner
+from singsym.designs.borders import borders
+from singsym.designs.families import family
+from singsym.designs.plane import Plane
+from singsym.polynomials import Ring
+
+OFFSET = """
+name = "offset"
+inputs = ["A"]
+output = { rate = "P" }
+[parameters]
+r = { value = 1, above = 0 }
+l = { value = 3, above = 0 }
+e = { value = "1/2", above = 0 }
+[links]
+ground = { points = { A = [0, 0], O = [0, "e"] }, axes = { x = [1, 0] } }
+AB = "r"
+BC = "l"
+slider = { points = { C = [0, 0] }, axes = { x = [1, 0] } }
+[joints]
+A = "R"
+B = "R"
+C = "R"
+P = { type = "P", links = ["ground", "slider"], at = ["O", "C"], axis = "x" }
+"""
+
+
+def factors(mechanism: singsym.Mechanism, *names: str) -> set[str]:
+    symbolic = mechanism.with_parameters(**dict.fromkeys(names))
+    found = borders(family(symbolic, "auto", Runner()))
+    assert not [types for types, _ in found.open if types]
+    assert found.certainty == "proven"
+    return {str(part.polynomial) for part in found.parts}
+
+
+def test_the_borders_of_a_four_bar_are_grashofs_lines():
+    # it lies flat where g +- a +- b +- c = 0, here with g = 4 and c = 3; besides only sides of no length
+    R = Ring(("a", "b"))
+    a, b = R.gens
+    flat = {str((4 + s * a + t * b + u * 3).primitive()) for s, t, u in product((1, -1), repeat=3)}
+    assert factors(singsym.load("fourbar"), "a", "b") == flat | {"a", "b"}
+
+
+def grashof(g: Fraction, a: Fraction, b: Fraction, c: Fraction) -> dict[int, int] | None:
+    """Points by class: the input's ends and the output's ends, from triangles alone.
+
+    Where the coupler is in line with the input, |a - b| or a + b makes a triangle with g and c, of two mirror
+    images each; where it is with the output, |b - c| or b + c with g and a.  None: it cannot be put together.
+    """
+    longest = max(g, a, b, c)
+    if longest > g + a + b + c - longest:
+        return None
+
+    def triangles(side: Fraction, other: Fraction) -> int:
+        return 2 * (abs(g - other) < side < g + other)
+
+    found = {
+        1: triangles(a + b, c) + triangles(abs(a - b), c),
+        2: triangles(b + c, a) + triangles(abs(b - c), a),
+    }
+    return {number: points for number, points in found.items() if points}
+
+
+def test_each_cell_of_a_four_bar_has_the_table_that_triangles_give():
+    found = singsym.design(singsym.load("fourbar").with_parameters(g=1), ["a", "b"], cache=False)
+    assert not found.undecided
+    tables = set()
+    for cell in found.cells:
+        a, b = (Fraction(str(cell.sample[name])) for name in ("a", "b"))
+        expected = grashof(Fraction(1), a, b, Fraction(3))
+        points = {number: count for number, _, _, count, _ in cell.entries}
+        assert points == ({0: None} if expected is None else expected)
+        tables.add(cell.entries)
+    # double rocker by the coupler, crank-rocker, drag link, the two triple rockers' table, not put together
+    assert len(tables) == 5
+    assert len({cell.signs for cell in found.cells}) == len(found.cells)
+    picture = found.plot()
+    assert "cell 1: " in picture.description
+    assert "<svg" in picture.svg()
+
+
+def test_one_length_of_a_four_bar_by_hand():
+    found = singsym.design(singsym.load("fourbar"), ["a"], cache=False)
+    assert [cell.where for cell in found.values] == [f"a = {x}/2" for x in (5, 7, 9, 21)]
+    for cell in found.cells:
+        expected = grashof(Fraction(4), Fraction(str(cell.sample["a"])), Fraction(7, 2), Fraction(3))
+        points = {number: count for number, _, _, count, _ in cell.entries}
+        assert points == ({0: None} if expected is None else expected)
+    for cell in found.values:  # it can lie flat there, in one way
+        assert (8, "yes", 0, 1, 1) in cell.entries
+    rows = found.rows()
+    assert {row["constant"] for row in rows} == {True}
+    assert found.latex().count(r"\left(") == 4
+
+
+def test_the_borders_of_a_slider_crank_with_offset():
+    # it can lie flat, across the slide, where e = +-r +- l with l = 3; besides only a crank of no length
+    found = factors(singsym.loads(OFFSET), "r", "e")
+    R = Ring(("r", "e"))
+    r, e = R.gens
+    assert found == {str((3 + s * r + t * e).primitive()) for s, t in product((1, -1), repeat=2)} | {"r"}
+
+
+def test_what_limits_cut_is_a_border():
+    # the slide's length is positive: of the two dead centres of r > l one is on the other side
+    found = singsym.design(singsym.load("slider-crank"), ["r"], cache=False)
+    assert [(cell.where, cell.entries[0][3]) for cell in found.cells] == [("0 < r < 3", 2), ("3 < r", 2)]
+
+
+def test_a_hyperbola_leaves_three_cells():
+    x, y = Ring(("x", "y")).gens
+    assert len(Plane(("x", "y"), (x * y - 1,)).components) == 3
+    assert len(Plane(("x", "y"), (x**2 + y**2 - 1, x - y)).components) == 4
+
+
+def test_parameters_that_cannot_be_varied():
+    mechanism = singsym.load("fourbar")
+    with pytest.raises(singsym.MechanismError, match=r"one or two parameters; of more, singsym\.sweep"):
+        singsym.design(mechanism, ["a", "b", "c"])
+    with pytest.raises(singsym.MechanismError, match="a value, as it is not one of those"):
+        singsym.design(mechanism.with_parameters(c=None), ["a"])
+
+
+def test_a_sweep_has_a_row_for_each_class_and_sample():
+    rows = singsym.sweep(singsym.load("fourbar"), {"a": [1, 20], "b": ["7/2"]}, cache=False)
+    assert [(row["a"], row["class"], row["verdict"]) for row in rows] == [("1", 1, "yes"), ("20", None, "no")]
