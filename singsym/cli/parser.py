@@ -28,7 +28,6 @@ EXAMPLES = """\
 examples:
   singsym classify zlatanov-2dof              which classes occur, where, how often
   singsym conditions stewart-gough            the factored singularity conditions
-  singsym classify zlatanov-hybrid --set a=3/2 --workers 2
   singsym conditions robot.urdf --tip tool0 --lock elbow=0
   singsym new mine && singsym check mine.toml && singsym classify mine.toml
 
@@ -101,6 +100,8 @@ def parser() -> argparse.ArgumentParser:
     add("export", "motion", words, options.mechanism, options.language)
     words = "the singularities on a trajectory"
     add("follow", "motion", words, options.mechanism, options.trajectory, short)
+    words = "regions free of singularities; what joins two configurations"
+    add("regions", "motion", words, options.mechanism, options.ends, short)
     add(
         "classes",
         "singularities",

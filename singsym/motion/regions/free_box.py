@@ -19,7 +19,7 @@ from singsym.motion.arithmetic import Arithmetic
 from singsym.motion.enclosures import BITS, Enclosure
 from singsym.motion.newton import Newton
 from singsym.motion.regions.borders import borders, input_space, point_of
-from singsym.motion.regions.free_motion import FreeMotions
+from singsym.motion.regions.free_motion import OUTSIDE, FreeMotions
 from singsym.polynomials.compiled_map import Floats
 from singsym.varieties.real.points.intervals import at_precision
 
@@ -71,8 +71,8 @@ def free_box(found: Analysis, *, tests: int = TESTS) -> FreeBox:
     motions = FreeMotions(borders(found.equation), space)
     point = point_of(found)
     place = motions.place(point)
-    if isinstance(place, str):
-        raise MechanismError([Problem("configuration", place, "a regular configuration within limits")])
+    if place is None:
+        raise MechanismError([Problem("configuration", OUTSIDE, "a regular configuration within limits")])
     return _Paving(motions, point, tests).grown(found.length)
 
 

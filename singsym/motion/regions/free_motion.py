@@ -19,6 +19,7 @@ from singsym.motion.trajectory import Trajectory
 from singsym.polynomials.compiled_map import Floats
 from singsym.varieties.real.points.intervals import at_precision
 
+OUTSIDE = "not proven to be regular and within limits: on a border, beyond one, or too near"
 _GIVEN = 1e-9
 """How well a configuration is given: the inputs' values, in radians or lengths over their unit."""
 
@@ -47,17 +48,21 @@ class FreeMotions:
         self.sheet = Sheet(borders.equation, self.system)
         self._all = len(self.system.ring.names)
 
-    def place(self, point: Floats) -> Place | str:
-        """A configuration known in doubles; the reason where it is not proven to be inside a region."""
-        units = np.array(self.space.units)
-        values = (self.space.at(point)[0] * units).tolist()
-        given = dict(zip(self.space.labels, values, strict=True))
-        with at_precision(BITS):
-            wide = {k: arb(x, _GIVEN * u) for (k, x), u in zip(given.items(), units.tolist(), strict=True)}
-        near = self.sheet.over(wide, point)
+    def place(self, point: Floats) -> Place | None:
+        """A configuration known in doubles; None where it is not proven to be inside a region."""
+        near = self.near(point)
         if near is None or not self.borders.are_off(near.box):
-            return "it is not proven to be regular and within limits: it is on a border, beyond one, or near"
-        return Place(point, given, near)
+            return None
+        values = self.space.at(point)[0] * np.array(self.space.units)
+        return Place(point, dict(zip(self.space.labels, values.tolist(), strict=True)), near)
+
+    def near(self, point: Floats) -> Enclosure | None:
+        """Where the sheet of a configuration is while the inputs keep within 1e-9 of its values."""
+        values, units = self.space.at(point)[0], np.array(self.space.units)
+        with at_precision(BITS):
+            rows = zip(self.space.labels, (values * units).tolist(), units.tolist(), strict=True)
+            wide = {label: arb(x, _GIVEN * unit) for label, x, unit in rows}
+        return self.sheet.over(wide, point)
 
     def joins(self, path: Trajectory, one: Place, other: Place) -> int:
         """The number of boxes that prove a motion from one place to the other inside a region; 0 if none do.

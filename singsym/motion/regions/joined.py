@@ -14,12 +14,14 @@ import numpy as np
 
 from singsym.classes.configuration.at import Analysis
 from singsym.effort import progress
+from singsym.effort.budget import Undecided
 from singsym.effort.verdict import Verdict
 from singsym.kinematics.sampling import sample_configurations
 from singsym.mechanism.problems import MechanismError, Problem
+from singsym.motion.regions.arcs import Arcs
 from singsym.motion.regions.borders import Border, borders, input_space, point_of
 from singsym.motion.regions.flood import Flood, axes_of
-from singsym.motion.regions.free_motion import FreeMotions, Place
+from singsym.motion.regions.free_motion import OUTSIDE, FreeMotions, Place
 from singsym.motion.trajectory import Trajectory
 from singsym.polynomials.compiled_map import Floats
 
@@ -65,20 +67,35 @@ def joined(one: Analysis, other: Analysis, *, seed: int = 0) -> Joined:
         raise MechanismError([Problem("regions", "configurations of different mechanisms", expected)])
     motions = FreeMotions(borders(one.equation), input_space(one.equation, one.length))
     places = [motions.place(point_of(found)) for found in (one, other)]
-    for words, place in zip(("first", "second"), places, strict=True):
-        if isinstance(place, str):
-            return Joined(Verdict.undecided(f"of the {words} configuration {place}"))
-    first, last = (place for place in places if isinstance(place, Place))
+    first, last = places
+    if first is None or last is None:
+        return Joined(Verdict.undecided(f"the {'second' if first else 'first'} configuration is {OUTSIDE}"))
     apart = _sign_apart(motions, first, last)
     if apart is not None:
         reason = f"{apart}: other signs at both, and a motion between them passes a zero"
         return Joined(Verdict.no("certified", reason=reason), apart=apart)
+    if one.equation.n == 1:
+        on_arcs = _on_arcs(motions, first, last)
+        if on_arcs.is_no:
+            return Joined(on_arcs)
     for path in _paths(motions, first, last, seed):
         boxes = motions.joins(path, first, last)
         if boxes:
             reason = f"a motion without a border is proven, in {boxes} boxes"
             return Joined(Verdict.yes("certified", reason=reason), path, boxes)
     return Joined(Verdict.undecided("no path was found and proven, and no sign tells them apart"))
+
+
+def _on_arcs(motions: FreeMotions, first: Place, last: Place) -> Verdict:
+    """Whether both are on one arc of a configuration curve between its borders."""
+    found = Arcs(motions)
+    try:
+        if found.number(first) != found.number(last):
+            reason = "they are on different arcs of the configuration curve, between its borders"
+            return Verdict.no(found.certainty, reason=reason)
+    except Undecided as reason:
+        return Verdict.undecided(str(reason))
+    return Verdict.yes(found.certainty, reason="they are on one arc of the configuration curve")
 
 
 def _sign_apart(motions: FreeMotions, first: Place, last: Place) -> Border | None:

@@ -1,7 +1,7 @@
 """A real curve cut at some of its points: what is left, piece by piece, and on which piece a point lies.
 
-Source: a proven arc goes through its tubes in order, and in each there is one point of it for each length along
-the tube; so points on it are in the order of their tubes, and in one tube of these lengths.
+Source: a proven arc goes through its tubes in order, and in each there is one point of it for each length
+along the tube; so points on it are in the order of their tubes, and in one tube of these lengths.
 """
 
 from __future__ import annotations
@@ -73,10 +73,8 @@ class CutCurve:
     @cached_property
     def _stars(self) -> dict[int, int]:
         """The removed points that are nodes, by the numbers of these."""
-        found = {}
-        for k, star in enumerate(self.proof.stars):
-            found |= {k: j for j, point in enumerate(self.removed) if star.point.coincides(point)}
-        return found
+        pairs = ((k, j) for k in range(len(self.proof.stars)) for j in range(len(self.removed)))
+        return {k: j for k, j in pairs if self.proof.stars[k].point.coincides(self.removed[j])}
 
     @cached_property
     def _cuts(self) -> list[list[_Spot]]:
@@ -152,7 +150,9 @@ class CutCurve:
                 points += [cuts[j].cut for j in (i - 1, i) if 0 <= j < len(cuts)]
                 rows = np.arange(len(edge.chain.points), dtype=float)
                 kept = edge.chain.points[(rows > places[i]) & (rows < places[i + 1])]
-                ends = [np.array([self.removed[cuts[j].cut].floats]) for j in (i - 1, i) if 0 <= j < len(cuts)]
+                ends = [
+                    np.array([self.removed[cuts[j].cut].floats]) for j in (i - 1, i) if 0 <= j < len(cuts)
+                ]
                 first = ends[:1] if i > 0 else []
                 lines += [*first, kept, *(ends[-1:] if i < len(cuts) else [])]
         line = np.concatenate(lines) if lines else np.zeros((0, 0))
