@@ -133,7 +133,8 @@ class CutCurve:
                 along = ((ball.mid - tubes.center[rows]) * tubes.step[rows]).sum(axis=1) / squares
                 slack = ball.rad.max() / np.sqrt(squares) + _ROUNDED
                 ends = zip(rows.tolist(), (along - slack).tolist(), (along + slack).tolist(), strict=True)
-                found.append((k, _Spot({r: (a, b) for r, a, b in ends}, outside[0], number)))
+                spot = _Spot({r: (a, b) for r, a, b in ends}, outside[0], number)
+                found.append((k, _at_seam(spot, len(tubes)) if edge.chain.closed else spot))
         if len(found) != 1:
             raise Undecided("the arc of a point of a curve is not proven: it may be near a singular point")
         return found[0]
@@ -165,6 +166,22 @@ class CutCurve:
             found += [edge.ends[0]] if (f"part {k}", 0) in nodes else []
             found += [edge.ends[1]] if (f"part {k}", len(cuts)) in nodes else []
         return [end for end in found if end[0] == "singular"]
+
+
+def _at_seam(spot: _Spot, count: int) -> _Spot:
+    """A point of a loop where its last tube meets the first: as a point of the first, which begins the order.
+
+    Raises `Undecided` where it is near the seam and not in both.
+    """
+    first, last = spot.along.get(0), spot.along.get(count - 1)
+    near = (first is not None and first[0] < MARGIN - 0.5) or (last is not None and last[1] > 0.5 - MARGIN)
+    if not near:
+        return spot
+    if first is None or last is None:
+        raise Undecided("a point of a curve is too near to where a loop of tubes closes")
+    outside = spot.outside.copy()
+    outside[count - 1] = True
+    return _Spot({row: ends for row, ends in spot.along.items() if row != count - 1}, outside, spot.cut)
 
 
 def _position(spot: _Spot) -> float:
