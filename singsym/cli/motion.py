@@ -79,7 +79,7 @@ def run_regions(chosen: argparse.Namespace) -> int:
     if chosen.output and chosen.start:
         raise UserError("found -o with --from; expected it without: the picture is of all regions")
     if chosen.output:
-        writable(Path(chosen.output))
+        drawable(Path(chosen.output))
     try:
         with progress_shown():
             page, data, is_decided = _regions(mechanism, chosen)
