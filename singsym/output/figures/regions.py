@@ -147,7 +147,13 @@ def _fill(panel: Any, found: Regions, region: Region, across: Coordinate, up: Co
             if all(len(own) == 1 for own in nodes):
                 quads.append(places[[own[0] for own in nodes]])
     whole = np.array(quads).reshape(-1, 4, 2)
-    look = {"facecolor": OUTPUT, "edgecolor": OUTPUT, "alpha": 0.35, "lw": 0.2, "rasterized": True}
+    look: dict[str, Any] = {
+        "facecolor": OUTPUT,
+        "edgecolor": OUTPUT,
+        "alpha": 0.35,
+        "lw": 0.2,
+        "rasterized": True,
+    }
     panel.add_collection(PolyCollection(list(whole), **look))
     panel.autoscale_view()
 
