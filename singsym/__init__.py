@@ -73,8 +73,14 @@ if TYPE_CHECKING:
     from singsym.motion.distance import NearSingularity, SingularityDistance, singularity_distance
     from singsym.motion.follow import FollowedMotion, Passage, follow, follow_equation
     from singsym.motion.numeric import NumericLinkage, numeric, numeric_equation
+    from singsym.motion.regions.borders import Border
+    from singsym.motion.regions.free_box import FreeBox, free_box
+    from singsym.motion.regions.joined import Joined, joined
+    from singsym.motion.regions.regions import regions, regions_equation
+    from singsym.motion.regions.result import Region, Regions
     from singsym.motion.trajectory import Trajectory
     from singsym.output.figures.figure import plot_configuration, plot_mechanism
+    from singsym.output.figures.regions import plot_regions
     from singsym.output.figures.style import Picture
     from singsym.output.motion.follow_page import plot_margins
     from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
@@ -122,8 +128,14 @@ _HOMES = {
     "singsym.motion.distance": "NearSingularity SingularityDistance singularity_distance",
     "singsym.motion.follow": "FollowedMotion Passage follow follow_equation",
     "singsym.motion.numeric": "NumericLinkage numeric numeric_equation",
+    "singsym.motion.regions.borders": "Border",
+    "singsym.motion.regions.free_box": "FreeBox free_box",
+    "singsym.motion.regions.joined": "Joined joined",
+    "singsym.motion.regions.regions": "regions regions_equation",
+    "singsym.motion.regions.result": "Region Regions",
     "singsym.motion.trajectory": "Trajectory",
     "singsym.output.figures.figure": "plot_configuration plot_mechanism",
+    "singsym.output.figures.regions": "plot_regions",
     "singsym.output.figures.style": "Picture",
     "singsym.output.motion.follow_page": "plot_margins",
     "singsym.polynomials": "Polynomial PolynomialMatrix Ring",
@@ -140,6 +152,7 @@ __all__ = [
     "AlgebraicConstant",
     "Analysis",
     "Answer",
+    "Border",
     "Budget",
     "BudgetExceeded",
     "Cancelled",
@@ -164,9 +177,11 @@ __all__ = [
     "Extent",
     "Factor",
     "FollowedMotion",
+    "FreeBox",
     "Given",
     "Ideal",
     "Interrupted",
+    "Joined",
     "Joint",
     "JointKind",
     "JointRate",
@@ -196,6 +211,8 @@ __all__ = [
     "RealPoint",
     "Reduction",
     "RedundantChain",
+    "Region",
+    "Regions",
     "Ring",
     "SelfMotion",
     "SingularityClass",
@@ -228,7 +245,9 @@ __all__ = [
     "feasible_classes",
     "follow",
     "follow_equation",
+    "free_box",
     "from_sympy",
+    "joined",
     "library",
     "load",
     "loads",
@@ -238,9 +257,12 @@ __all__ = [
     "plot_configuration",
     "plot_margins",
     "plot_mechanism",
+    "plot_regions",
     "real_curve",
     "reduce",
     "redundant_chain",
+    "regions",
+    "regions_equation",
     "self_motions",
     "self_motions_equation",
     "singularity_distance",

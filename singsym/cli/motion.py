@@ -1,4 +1,4 @@
-"""The commands about numbers and motion: export, follow.
+"""The commands about numbers and motion: export, follow, regions.
 
 Source: singsym's own.
 """
@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from singsym.cli.mechanisms import complaint, placed, read
 from singsym.cli.screen import UserError, drawable, emit_data, emit_page, progress_shown, say
@@ -15,7 +15,9 @@ from singsym.cli.singularities import UNDECIDED
 from singsym.mechanism import Mechanism, MechanismError
 
 if TYPE_CHECKING:
+    from singsym.classes.configuration.at import Analysis
     from singsym.motion.follow import FollowedMotion
+    from singsym.output.page import Page
 
 
 def run_export(chosen: argparse.Namespace) -> int:
@@ -59,15 +61,71 @@ def run_follow(chosen: argparse.Namespace) -> int:
 
 
 def _followed(mechanism: Mechanism, chosen: argparse.Namespace) -> FollowedMotion:
-    from singsym.classes.configuration.at import at
-    from singsym.classes.configuration.given_values import Given
     from singsym.motion.follow import follow
     from singsym.motion.trajectory import Trajectory
 
     trajectory = Trajectory.from_file(chosen.trajectory)
-    start = None
-    if chosen.config:
-        given = Given.from_file(chosen.config)
-        start = at(mechanism, given, formulation=chosen.formulation, file=chosen.config)
+    start = _examined(mechanism, chosen, chosen.config) if chosen.config else None
     with progress_shown():
         return follow(mechanism, trajectory, start=start, formulation=chosen.formulation)
+
+
+def run_regions(chosen: argparse.Namespace) -> int:
+    """`singsym regions MECHANISM [--from FILE [--to FILE]]`: all, a free box, or whether two are joined."""
+    mechanism = read(chosen)
+    placed(mechanism, chosen.formulation)
+    if chosen.target and not chosen.start:
+        raise UserError("found --to without --from; expected two configurations, or --from alone for a box")
+    if chosen.output and chosen.start:
+        raise UserError("found -o with --from; expected it without: the picture is of all regions")
+    if chosen.output:
+        drawable(Path(chosen.output))
+    try:
+        with progress_shown():
+            page, data, is_decided = _regions(mechanism, chosen)
+    except MechanismError as error:
+        raise UserError(complaint(error.problems)) from None
+    except ValueError as error:
+        raise UserError(str(error)) from None
+    except OSError as error:
+        raise UserError(f"{error.filename} cannot be read or written: {error.strerror}") from None
+    if chosen.format == "json":
+        emit_data(data)
+    else:
+        emit_page(page)
+    return 0 if is_decided else UNDECIDED
+
+
+def _regions(mechanism: Mechanism, chosen: argparse.Namespace) -> tuple[Page, dict[str, Any], bool]:
+    """The page, the plain data, and whether all is decided."""
+    from singsym.output.motion import regions_page as pages
+
+    name = mechanism.name
+    if not chosen.start:
+        from singsym.motion.regions.regions import regions
+
+        every = regions(mechanism, formulation=chosen.formulation)
+        if chosen.output:
+            from singsym.output.figures.regions import plot_regions
+
+            plot_regions(every).save(chosen.output)
+            say(f"written: {chosen.output}")
+        return pages.regions_page(name, every), pages.regions_data(name, every), every.verdict.is_yes
+    one = _examined(mechanism, chosen, chosen.start)
+    if not chosen.target:
+        from singsym.motion.regions.free_box import free_box
+
+        box = free_box(one)
+        return pages.box_page(name, box), pages.box_data(name, box), True
+    from singsym.motion.regions.joined import joined
+
+    found = joined(one, _examined(mechanism, chosen, chosen.target))
+    return pages.joined_page(name, found), pages.joined_data(name, found), not found.verdict.is_undecided
+
+
+def _examined(mechanism: Mechanism, chosen: argparse.Namespace, file: str) -> Analysis:
+    """The configuration that a file gives."""
+    from singsym.classes.configuration.at import at
+    from singsym.classes.configuration.given_values import Given
+
+    return at(mechanism, Given.from_file(file), formulation=chosen.formulation, file=file)

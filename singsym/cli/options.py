@@ -242,6 +242,23 @@ def tables(command: argparse.ArgumentParser) -> None:
     standalone(command)
 
 
+def ends(command: argparse.ArgumentParser) -> None:
+    """A configuration or two, and a picture."""
+    command.add_argument(
+        "--from",
+        dest="start",
+        metavar="FILE",
+        help="a configuration, as for `at`: alone, a certified box around it that is free of singularities",
+    )
+    command.add_argument(
+        "--to",
+        dest="target",
+        metavar="FILE",
+        help="another: whether a motion without a singularity joins them, with the motion or the reason",
+    )
+    command.add_argument("-o", "--output", metavar="FILE", help="a picture of all regions to write")
+
+
 def language(command: argparse.ArgumentParser) -> None:
     """The language of exported code."""
     command.add_argument(

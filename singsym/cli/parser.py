@@ -102,6 +102,8 @@ def parser() -> argparse.ArgumentParser:
     add("export", "motion", words, options.mechanism, options.language)
     words = "the singularities on a trajectory"
     add("follow", "motion", words, options.mechanism, options.trajectory, short)
+    words = "regions free of singularities; what joins two configurations"
+    add("regions", "motion", words, options.mechanism, options.ends, short)
     add(
         "classes",
         "singularities",

@@ -38,6 +38,8 @@ BITS = 96
 """Of the balls."""
 _WIDER = (1.2, 2.0, 4.0)
 """How many times as wide as the slopes say a box is tried."""
+_BEND = 2.0
+"""And how many times the square of its width, over the sizes of its variables, is added (measured)."""
 _LEAST = 1e-10
 """Of a box around a configuration in doubles, which may be ill-conditioned, over the size of its numbers."""
 
@@ -67,11 +69,9 @@ class Sheet:
         self.system, self.ring = system, system.ring
         self.constants: Sequence[AlgebraicConstant] = equation.space.ring.constants
         self.names = equation.space.ring.names
-        self.equations: Equations = (
-            *system.loops,
-            *(self.ring.convert(r) for r in equation.space.ring.relations),
-            *(d.equation for d in system.drives),
-        )
+        relations = map(self.ring.convert, equation.space.ring.relations)
+        loops = dict.fromkeys((*system.loops, *relations))
+        self.equations: Equations = (*loops, *(d.equation for d in system.drives))
         places = [self.ring.index(name) for name in self.names]
         given = [self.ring.index(name) for d in system.drives for name in d.names]
         self._map = CompiledMap(self.equations, self.ring)
@@ -103,12 +103,11 @@ class Sheet:
             middles = near.tolist()
             box = [*map(arb, middles), *given]
             # what is quadratic counts where a coordinate is at an end of its range
-            bend = float((widths / self._sizes).max(initial=0.0)) ** 2 * self._sizes
+            bend = _BEND * float((widths / self._sizes).max(initial=0.0)) ** 2 * self._sizes
+            least = _LEAST * (1 + np.abs(near))
             for wider in _WIDER:
-                least = _LEAST * (1 + np.abs(near))
-                radii = dict(
-                    zip(self.names, map(Fraction, (wider * (widths + bend) + least).tolist()), strict=True)
-                )
+                wide = wider * widths + wider**2 * bend + least
+                radii = dict(zip(self.names, map(Fraction, wide.tolist()), strict=True))
                 found = krawczyk(self.equations, self.names, box, radii)
                 if found is not None:
                     room = [arb(x, ball(r).upper()) for x, r in zip(middles, radii.values(), strict=True)]

@@ -34,11 +34,14 @@ def picture(
 
         return plot_curves(found, str(what), axes=axes)
     if what == "regions":
+        from singsym.motion.regions.regions import regions_equation
+        from singsym.output.figures.curves import trace_loci
         from singsym.output.figures.regions import plot_regions
 
         if axes is not None:
             raise ValueError("regions are several drawings: they need a figure of their own, without ax")
-        return plot_regions(found)
+        traces = trace_loci(found) if found.equation.n == 2 else ()
+        return plot_regions(regions_equation(found.equation, seed=found.seed), traces=traces)
     if what == "strata":
         from singsym.output.strata_graph import plot_strata
 

@@ -156,10 +156,13 @@ def hang_struts(assembly: Assembly, struts: Sequence[Strut]) -> None:
             assembly.idle_spins.append((strut.ends[0].joint.name, direction))
         if strut.slide is not None:
             assembly.scaled[strut.slide.name] = (*algebra.origin, *direction)
+            offset = _offset(geometry, strut.slide, strut.ends)
             if strut.names:
                 length = algebra.ring.gen(strut.names[0])
-                offset = algebra.number(_offset(geometry, strut.slide, strut.ends))
-                assembly.values[strut.slide.name] = JointValue(length=length - offset)
+                assembly.values[strut.slide.name] = JointValue(length=length - algebra.number(offset))
+            elif offset.is_zero:
+                square = algebra.dot(direction, direction)
+                assembly.values[strut.slide.name] = JointValue(square=square)
 
 
 def _offset(geometry: local.Geometry, slide: Joint, ends: tuple[Hanger, Hanger]) -> sympy.Expr:

@@ -1,267 +1,121 @@
-"""The input plane of a 2-DOF mechanism: how many assemblies there are, and regions free of singularities.
+"""Regions free of singularities over the inputs, in the workspace, and as arcs of a configuration curve.
 
-Source: aspects of Borrel, Liegeois (1986), and of Wenger, Chablat (1997) for parallel mechanisms: the
-connected parts of the configuration space between its singularities.
-Regions are filled on a grid from random configurations: numbers for drawing, from which nothing is concluded.
+Source: regions as in `singsym.motion.regions`; what is drawn is their numerical part.
 """
 
 from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Sequence
-from dataclasses import dataclass
-from itertools import product
 from typing import Any
 
-import networkx as nx
 import numpy as np
 
 from singsym.classes.result import Classification
-from singsym.kinematics.sampling import sample_configurations
-from singsym.output.figures.curves import Coordinate, Trace, draw_traces, finish_axes, input_plane, trace_loci
-from singsym.output.figures.style import INK, OUTPUT, PALE, Floats, Picture, canvas
-from singsym.polynomials.compiled_map import CompiledMap
+from singsym.mechanism.problems import MechanismError
+from singsym.motion.regions.regions import regions_equation
+from singsym.motion.regions.result import Region, Regions
+from singsym.output.figures.curves import Coordinate, Trace, draw_traces, finish_axes
+from singsym.output.figures.style import INK, OUTPUT, PALE, SERIES, Floats, Picture, canvas, paper
 
-GRID, SEEDS, MOST = 60, 150, 11
-"""Cells along each input, random configurations to begin with, and the largest regions, which are drawn."""
-
+MOST = 11
+"""The largest regions, which are drawn."""
 _FEW = 0.01
 """A part of the cells, those on borders, in which an assembly may have been missed."""
 
-_PARTS, _STEPS, _REACHED, _SAME, _FAR = 4, 4, 1e-8, 1e-4, 0.5
-"""Parts of the way from cell to cell, and Newton's steps for each; values at their end; how near solutions
-are the same, and how far they may go in a part, both over the sizes of the variables."""
 
-Cell = tuple[int, int]
-
-
-@dataclass(frozen=True, eq=False)
-class Regions:
-    """What was found over a grid of two inputs.
-
-    inputs: middles of the cells; assemblies: the number of configurations over each cell; regions: for each
-    region how many of its configurations are over each cell, large ones first.
-    """
-
-    inputs: tuple[Floats, Floats]
-    assemblies: Floats
-    regions: tuple[Floats, ...]
-
-
-def find_regions(classification: Classification, grid: int = GRID, seeds: int = SEEDS) -> Regions | None:
-    """The regions over the inputs of a mechanism with two; None where their values are not known."""
-    plane = input_plane(classification)
-    if plane is None or classification.equation.space.parameters:
+def regions_over_inputs(classification: Classification) -> Regions | None:
+    """The regions of a mechanism with two inputs of known values; None for others."""
+    if classification.equation.n != 2 or classification.equation.space.parameters:
         return None
-    starts = sample_configurations(classification.equation.space, seeds, seed=classification.seed)
-    if not starts:
+    try:
+        return regions_equation(classification.equation, seed=classification.seed)
+    except MechanismError:
         return None
-    flood = _Flood(classification, plane, np.array(starts), grid)
-    flood.fill(np.array(starts))
-    return flood.found()
-
-
-class _Flood:
-    """Configurations over the cells of a grid, joined where a step from cell to cell meets no singularity."""
-
-    def __init__(
-        self, classification: Classification, plane: tuple[str, str], starts: Floats, grid: int
-    ) -> None:
-        space = classification.equation.space
-        self.grid = grid
-        self.coordinates = [Coordinate(label, classification.equation) for label in plane]
-        self.axes = tuple(_middles(c, starts, grid) for c in self.coordinates)
-        self.equations = CompiledMap.balanced(space.equations, space.ring)
-        self.inputs = [CompiledMap(c.polynomials, space.ring) for c in self.coordinates]
-        fixed = {c.name for c in space.ring.constants}
-        self.free = [i for i, name in enumerate(space.ring.names) if name not in fixed]
-        self.sizes = np.maximum(self.equations.sizes, 1e-9)
-        real = [locus.factor for locus in classification.loci if not locus.verdict.is_no]
-        self.factors = CompiledMap.balanced(real, space.ring)
-        self.points: list[Floats] = []
-        self.over: dict[Cell, list[int]] = defaultdict(list)
-        self.joined: Any = nx.utils.UnionFind()
-
-    def fill(self, starts: Floats) -> None:
-        """From configurations to all that are reached, step by step from cell to cell."""
-        cells = np.column_stack(
-            [_nearest(a, c.at(starts)) for a, c in zip(self.axes, self.coordinates, strict=True)]
-        )
-        landed, ok = self._solved(starts, cells, cells, 1.0)
-        front = []
-        for point, cell in zip(landed[ok], cells[ok], strict=True):
-            number, new = self._entered(point, (int(cell[0]), int(cell[1])))
-            front += [number] if new else []
-        where = {n: cell for cell, numbers in self.over.items() for n in numbers}
-        while front:
-            begun = [(n, step) for n, step in product(front, ((1, 0), (-1, 0), (0, 1), (0, -1)))]
-            targets = [self._shifted(where[n], step) for n, step in begun]
-            kept = [(n, cell) for (n, _), cell in zip(begun, targets, strict=True) if cell is not None]
-            front = []
-            if not kept:
-                break
-            before = np.array([self.points[n] for n, _ in kept])
-            begun_at = np.array([where[n] for n, _ in kept])
-            landed, ok, free = self._moved(before, begun_at, np.array([cell for _, cell in kept]))
-            for k in np.flatnonzero(ok):
-                start, cell = kept[int(k)]
-                number, new = self._entered(landed[k], cell)
-                if free[k]:
-                    self.joined.union(start, number)
-                if new:
-                    where[number] = cell
-                    front.append(number)
-
-    def _moved(self, points: Floats, begun: Any, cells: Any) -> tuple[Floats, Any, Any]:
-        """From cells to cells in small steps: the ends, where there is one, and where no locus was met."""
-        ok, free = np.ones(len(points), dtype=bool), np.ones(len(points), dtype=bool)
-        signs = self._signs(points)
-        for part in np.arange(1, _PARTS + 1) / _PARTS:
-            landed, there = self._solved(points, begun, cells, part)
-            near = (np.abs(landed - points) / self.sizes).max(axis=1) < _FAR
-            free &= near & (self._signs(landed) == signs).all(axis=1)
-            ok &= there
-            points = np.where(there[:, None], landed, points)
-        return points, ok, free & ok
-
-    def _signs(self, points: Floats) -> Floats:
-        """On which side of each locus points are, (points, loci)."""
-        if not self.factors.count:
-            return np.zeros((len(points), 1))
-        return np.sign(self.factors.values(points))
-
-    def found(self) -> Regions:
-        """What the cells hold."""
-        shape = (self.grid, self.grid)
-        whole = np.zeros(shape)
-        by_root: dict[int, Floats] = defaultdict(lambda: np.zeros(shape))
-        for cell, numbers in self.over.items():
-            whole[cell] = len(numbers)
-            for number in numbers:
-                by_root[self.joined[number]][cell] += 1
-        regions = sorted(by_root.values(), key=lambda region: -int((region > 0).sum()))
-        # a few cells are a corner that a step went around
-        kept = tuple(region for region in regions if (region > 0).sum() > 4)
-        return Regions((self.axes[0], self.axes[1]), whole, kept)
-
-    def _shifted(self, cell: Cell, step: Cell) -> Cell | None:
-        """The next cell; around the circle for an angle, None over the end of a length."""
-        moved = []
-        for place, by, coordinate in zip(cell, step, self.coordinates, strict=True):
-            to = place + by
-            if not coordinate.is_angle and not 0 <= to < self.grid:
-                return None
-            moved.append(to % self.grid)
-        return moved[0], moved[1]
-
-    def _entered(self, point: Floats, cell: Cell) -> tuple[int, bool]:
-        """The number of a configuration over a cell, and whether it is new there."""
-        for number in self.over[cell]:
-            if float((np.abs(self.points[number] - point) / self.sizes).max()) < _SAME:
-                return number, False
-        number = len(self.points)
-        self.points.append(point)
-        self.over[cell].append(number)
-        _ = self.joined[number]
-        return number, True
-
-    def _solved(self, starts: Floats, begun: Any, cells: Any, part: float) -> tuple[Floats, Any]:
-        """Configurations with inputs part of the way between cells by Newton's method, and where it ended."""
-        points = starts.copy()
-        wanted = [self._between(k, begun[:, k], cells[:, k], part) for k in (0, 1)]
-        for step in range(_STEPS + 1):
-            values, slopes = self._with_inputs(points, wanted)
-            if step == _STEPS:
-                break
-            matrix = slopes[:, :, self.free] * self.sizes[self.free]
-            turned = matrix.transpose(0, 2, 1)
-            gram = turned @ matrix + 1e-12 * np.eye(len(self.free))
-            changes = np.linalg.solve(gram, -(turned @ values[:, :, None]))[:, :, 0]
-            points[:, self.free] += self.sizes[self.free] * np.clip(changes, -1, 1)
-        ahead = [self._ahead(points, k, target) for k, target in enumerate(wanted)]
-        return points, (np.abs(values).max(axis=1) < _REACHED) & ahead[0] & ahead[1]
-
-    def _between(self, k: int, begun: Any, ends: Any, part: float) -> Floats:
-        """Values of an input part of the way between cells, the shorter way for an angle."""
-        axis = self.axes[k]
-        way = axis[ends] - axis[begun]
-        if self.coordinates[k].is_angle:
-            way = (way + np.pi) % (2 * np.pi) - np.pi
-        return np.asarray(axis[begun] + part * way)
-
-    def _with_inputs(self, points: Floats, wanted: Sequence[Floats]) -> tuple[Floats, Floats]:
-        """Values and slopes of the loop equations, and of what is zero where the inputs are as wanted."""
-        values, slopes = self.equations(points)
-        for system, coordinate, target in zip(self.inputs, self.coordinates, wanted, strict=True):
-            here, by = system(points)
-            if coordinate.is_angle:
-                c, s = np.cos(target)[:, None], np.sin(target)[:, None]
-                value, slope = c * here[:, 1:] - s * here[:, :1], c * by[:, 1] - s * by[:, 0]
-            else:
-                value, slope = here - coordinate.powered(target)[:, None], by[:, 0]
-            values = np.concatenate([values, value], axis=1)
-            slopes = np.concatenate([slopes, slope[:, None]], axis=1)
-        return values, slopes
-
-    def _ahead(self, points: Floats, k: int, target: Floats) -> Any:
-        """Whether an angle is as wanted, and not half a turn from it."""
-        if not self.coordinates[k].is_angle:
-            return np.ones(len(points), dtype=bool)
-        here = self.inputs[k].values(points)
-        return np.cos(target) * here[:, 0] + np.sin(target) * here[:, 1] > 0
-
-
-def _middles(coordinate: Coordinate, starts: Floats, grid: int) -> Floats:
-    """The middles of the cells along an input: of all angles, or between the lengths that were met."""
-    values = coordinate.at(starts)
-    low, high = (-np.pi, np.pi) if coordinate.is_angle else (float(values.min()), float(values.max()))
-    return np.asarray(low + (np.arange(grid) + 0.5) * (high - low) / grid)
-
-
-def _nearest(axis: Floats, values: Floats) -> Any:
-    return np.clip(np.round((values - axis[0]) / (axis[1] - axis[0])).astype(int), 0, len(axis) - 1)
 
 
 def plot_regions(
-    classification: Classification, traces: Sequence[Trace] | None = None, regions: Regions | None = None
+    found: Regions, plane: tuple[str, str] | None = None, traces: Sequence[Trace] = ()
 ) -> Picture:
-    """The input plane shaded by the number of assemblies, under the singularity curves; then each region.
+    """The regions of a mechanism with one or two inputs.
 
-    traces, regions: from `trace_loci` and `find_regions`, where they are known already.
-    Raises `ValueError` for a mechanism without two inputs of known values.
+    plane: for n = 2 two coordinates of points or joints in which regions are shaded, as ("C.x", "C.y") for a
+    workspace; by default the inputs.  For n = 1 what is drawn across and up; by default the input and the
+    output's value.  traces: singularity curves to draw on top, from `trace_loci`.
+    Raises `ValueError` where there is no region, or a label is not known.
     """
-    found = find_regions(classification) if regions is None else regions
-    plane = input_plane(classification)
-    if found is None or plane is None:
-        raise ValueError("regions over the inputs are for mechanisms with two inputs of known values")
-    traces = trace_loci(classification) if traces is None else traces
+    if not found.regions:
+        raise ValueError(f"there are no regions to draw: {found.verdict.reason}")
+    if not found.axes:
+        return _plot_arcs(found, plane)
+    return _plot_plane(found, plane or (found.inputs[0], found.inputs[1]), plane is None, traces)
+
+
+def _plot_arcs(found: Regions, plane: tuple[str, str] | None) -> Picture:
+    """Arcs in a plane, each in its colour."""
+    equation = found.equation
+    if plane is None:
+        outputs = [c.label.removeprefix("T.") for c in equation.columns if c.role == "output"]
+        places = [f"{name}.{axis}" for name in equation.space.points for axis in "xy"]
+        known = [label for label in (*outputs, *equation.values, *places) if label not in found.inputs]
+        plane = found.inputs[0], next((k for k in known if k in equation.values), places[-1])
+    across, up = (Coordinate(label, equation) for label in plane)
+    axes = paper(None, 6.4, 5.0)
+    for number, region in enumerate(found.regions, 1):
+        x, y = _unbroken(across.at(region.points), across), _unbroken(up.at(region.points), up)
+        axes.plot(x, y, color=SERIES[(number - 1) % len(SERIES)], lw=2.2, label=f"region {number}")
+    finish_axes(axes, across, up)
+    axes.figure.legend(loc="outside lower center", ncols=4, fontsize=8.5, frameon=False, labelcolor=INK)
+    title = "Singularity-free regions"
+    axes.set_title(title, fontsize=11, color=INK)
+    described = f"{len(found.regions)} arcs; {plane[0]} across, {plane[1]} up"
+    return Picture(axes.figure, title, f"{title}: {described}")
+
+
+def _unbroken(values: Floats, coordinate: Coordinate) -> Floats:
+    """Without the line from one side of the plane to the other where an angle goes round."""
+    if coordinate.is_angle:
+        values = values.copy()
+        values[1:][np.abs(np.diff(values)) > np.pi] = np.nan
+    return values
+
+
+def _plot_plane(found: Regions, plane: tuple[str, str], is_inputs: bool, traces: Sequence[Trace]) -> Picture:
+    """A panel of all assemblies where the plane is that of the inputs, then one for each region."""
     shown = found.regions[:MOST]
-    columns = min(4, len(shown) + 1)
-    rows = -(-(len(shown) + 1) // columns)
+    count = len(shown) + is_inputs
+    columns = min(4, count)
+    rows = -(-count // columns)
     figure = canvas(2.6 * columns, 2.75 * rows + 0.5)
-    panels = figure.subplots(rows, columns, squeeze=False).ravel()
-    across, up = (Coordinate(label, classification.equation) for label in plane)
-    numbers, cells = np.unique(found.assemblies, return_counts=True)
+    panels = list(figure.subplots(rows, columns, squeeze=False).ravel())
+    across, up = (Coordinate(label, found.equation) for label in plane)
+    numbers, cells = np.unique(_assemblies(found), return_counts=True)
     counts = [int(n) for n, size in zip(numbers, cells, strict=True) if n and size > _FEW * cells.sum()]
-    for n in counts:
-        _shade(panels[0], found, found.assemblies >= n, PALE, 0.3)
-    draw_traces(panels[0], traces, across, up, width=0.9)
-    darker = " (darker: more)" if len(counts) > 1 else ""
-    head = f"assemblies: {', '.join(map(str, counts)) or 'none'}{darker}"
-    panels[0].set_title(head, fontsize=9, color=INK)
-    for number, (panel, region) in enumerate(zip(panels[1:], shown, strict=False), 1):
-        _shade(panel, found, region > 0, OUTPUT, 0.55)
-        part = 100 * float((region > 0).mean())
-        panel.set_title(f"region {number}: {part:.0f} % of the plane", fontsize=9, color=INK)
-    for panel in panels[: len(shown) + 1]:
+    if is_inputs:
+        for n in counts:
+            _shade(panels[0], found, _assemblies(found) >= n, PALE, 0.3)
+        draw_traces(panels[0], traces, across, up, width=0.9)
+        darker = " (darker: more)" if len(counts) > 1 else ""
+        head = f"assemblies: {', '.join(map(str, counts)) or 'none'}{darker}"
+        panels[0].set_title(head, fontsize=9, color=INK)
+    for number, (panel, region) in enumerate(zip(panels[int(is_inputs) :], shown, strict=False), 1):
+        over = np.zeros(tuple(map(len, found.axes)))
+        over[tuple(region.cells.T)] = 1
+        if is_inputs:
+            _shade(panel, found, over > 0, OUTPUT, 0.55)
+        else:
+            _fill(panel, found, region, across, up)
+        panel.set_title(f"region {number}: {100 * over.mean():.0f} % of inputs", fontsize=9, color=INK)
+    for panel in panels[:count]:
         finish_axes(panel, across, up)
-    for panel in panels[1 : len(shown) + 1]:
+    for panel in panels[1:count]:
         # the same axes as those of the first
         panel.set(xlabel="", ylabel="")
-        panel.tick_params(labelbottom=False, labelleft=False)
-    for panel in panels[len(shown) + 1 :]:
+        panel.tick_params(labelbottom=not is_inputs, labelleft=not is_inputs)
+    for panel in panels[count:]:
         panel.axis("off")
-    title = "Assemblies and singularity-free regions over the inputs"
+    where = "the inputs" if is_inputs else f"{plane[0]} and {plane[1]}"
+    title = f"{'Assemblies and s' if is_inputs else 'S'}ingularity-free regions over {where}"
     figure.suptitle(title, fontsize=11, color=INK)
     more = len(found.regions) - len(shown)
     rest = f", {more} smaller ones are left out" if more else ""
@@ -270,13 +124,47 @@ def plot_regions(
     return Picture(figure, title, f"{title}: {described}")
 
 
+def _assemblies(found: Regions) -> Floats:
+    return np.zeros((1, 1)) if found.assemblies is None else found.assemblies
+
+
+def _fill(panel: Any, found: Regions, region: Region, across: Coordinate, up: Coordinate) -> None:
+    """The image of a region in a plane, cell by cell; where it covers a cell twice it is left out."""
+    from matplotlib.collections import PolyCollection
+
+    over: dict[tuple[int, ...], list[int]] = defaultdict(list)
+    for node, cell in enumerate(region.cells.tolist()):
+        over[tuple(cell)].append(node)
+    places = np.column_stack([across.at(region.points), up.at(region.points)])
+    round_ = [Coordinate(label, found.equation).is_angle for label in found.inputs]
+    sizes = [len(axis) for axis in found.axes]
+    quads = []
+    for i, j in over:
+        corners = [(i + a, j + b) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+        if round_[0] or i + 1 < sizes[0]:
+            corners = [(a % sizes[0], b % sizes[1] if round_[1] else b) for a, b in corners]
+            nodes = [over.get(corner, []) for corner in corners]
+            if all(len(own) == 1 for own in nodes):
+                quads.append(places[[own[0] for own in nodes]])
+    whole = np.array(quads).reshape(-1, 4, 2)
+    look: dict[str, Any] = {
+        "facecolor": OUTPUT,
+        "edgecolor": OUTPUT,
+        "alpha": 0.35,
+        "lw": 0.2,
+        "rasterized": True,
+    }
+    panel.add_collection(PolyCollection(list(whole), **look))
+    panel.autoscale_view()
+
+
 def _shade(axes: Any, found: Regions, inside: Any, colour: str, alpha: float) -> None:
     """The cells where something holds, as one area, to the borders of the plane."""
     padded = np.pad(np.asarray(inside, dtype=float), 1, mode="edge")
-    steps = [axis[1] - axis[0] for axis in found.inputs]
+    steps = [axis[1] - axis[0] for axis in found.axes]
     x, y = (
         np.concatenate([[axis[0] - h], axis, [axis[-1] + h]])
-        for axis, h in zip(found.inputs, steps, strict=True)
+        for axis, h in zip(found.axes, steps, strict=True)
     )
     axes.contourf(x, y, padded.T, levels=[0.5, 2.0], colors=[colour], alpha=alpha)
     axes.set(

@@ -45,14 +45,15 @@ def curves(classification: Classification) -> str:
 
 def _regions(classification: Classification, traces: Sequence[Trace]) -> str:
     """The input plane of a mechanism with two inputs, with assemblies and regions free of singularities."""
-    from singsym.output.figures.regions import find_regions, plot_regions
+    from singsym.output.figures.regions import plot_regions, regions_over_inputs
 
-    found = find_regions(classification)
-    if found is None:
+    found = regions_over_inputs(classification)
+    if found is None or not found.regions:
         return ""
-    picture = plot_regions(classification, traces, found)
+    picture = plot_regions(found, traces=traces)
     note = (
         "Within a region the mechanism moves without meeting a singularity.  Regions are filled on a grid "
-        "from random configurations: a small one may be missed, and nothing above rests on them."
+        f"from random configurations: a small one may be missed; {found.at_least} at least are certified, by "
+        "the signs of what vanishes at singularities."
     )
     return f"<h3>Over the inputs</h3>{html.figure(picture, 'regions', note, broad=True)}"

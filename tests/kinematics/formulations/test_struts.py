@@ -10,6 +10,7 @@ import sympy
 from singsym.kinematics.formulations.local import Geometry
 from singsym.kinematics.formulations.natural import place
 from singsym.kinematics.formulations.struts import Strut, find_struts, length_symbol
+from singsym.kinematics.velocity import velocity_equation
 from singsym.mechanism import load
 from singsym.mechanism.model import Exclusion, Limit, Mechanism
 
@@ -101,3 +102,11 @@ def test_the_rod_is_closed_by_its_length_and_does_not_spin() -> None:
     square = sum((g * g for g in gap), start=found.space.ring.zero) - 9
     assert square.primitive() in {e.primitive() for e in found.space.equations}
     assert found.idle_spins == (("B", tuple(gap)),)
+
+
+def test_a_strut_without_a_variable_tells_its_length() -> None:
+    """The slide of a leg is as long as its ends are apart."""
+    equation = velocity_equation(load("stewart-gough"))
+    ends = [equation.space.points[name] for name in ("A3", "B3")]
+    square = sum(((b - a) ** 2 for a, b in zip(*ends, strict=True)), equation.space.ring.zero)
+    assert equation.values["P3"].square == square

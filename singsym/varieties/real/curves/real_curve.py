@@ -20,6 +20,7 @@ from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.real.curves.arithmetic import Array, System
 from singsym.varieties.real.curves.assembly import Assembly, assemble, count_without, extended
 from singsym.varieties.real.curves.critical_points import Samples, points_on_components
+from singsym.varieties.real.curves.cuts import CutCurve
 from singsym.varieties.real.curves.equations import CurveEquations, candidates
 from singsym.varieties.real.curves.paths import Chain
 from singsym.varieties.real.curves.stars import find_stars
@@ -103,12 +104,39 @@ class RealCurve:
         if self._proof is None:
             raise Undecided(f"the topology of the curve is {self.verdict}")
         isolated = [p for p in self.isolated_points if all(map(p.sign, exclusions))]
-        equations, premises = self._proof.equations, Premises(self.verdict.certainty)
-        if not equations:
+        premises = Premises(self.verdict.certainty)
+        if not self._proof.equations:
             return premises.conclude(len(isolated))
-        removed = [p for e in exclusions for p in premises.take(real_points((*equations, e), budget))]
+        removed = self._zeros(exclusions, premises, budget)
         proof = premises.take(extended(self._proof, removed, current(budget)))
         return premises.conclude(count_without(proof, removed, isolated))
+
+    def cut(self, *exclusions: Polynomial, budget: Budget | None = None) -> Known[CutCurve]:
+        """The curve without the zeros of some polynomials, piece by piece; raises as `without` does.
+
+        >>> x, y = Ring(("x", "y")).gens
+        >>> len(real_curve([x**2 + y**2 - 1]).cut(x, x - y).value.pieces)
+        4
+        """
+        if self._proof is None:
+            raise Undecided(f"the topology of the curve is {self.verdict}")
+        premises = Premises(self.verdict.certainty)
+        if not self._proof.equations:
+            return premises.conclude(CutCurve(self._proof, ()))
+        removed = self._zeros(exclusions, premises, budget)
+        proof = premises.take(extended(self._proof, removed, current(budget)))
+        distinct: list[RealPoint] = []
+        for point in removed:
+            if not any(point.coincides(p) for p in distinct):
+                distinct.append(point)
+        return premises.conclude(CutCurve(proof, tuple(distinct)))
+
+    def _zeros(
+        self, exclusions: Sequence[Polynomial], premises: Premises, budget: Budget | None
+    ) -> list[RealPoint]:
+        """The points of the curve at which one of some polynomials vanishes."""
+        equations = self._proof.equations if self._proof else ()
+        return [p for e in exclusions for p in premises.take(real_points((*equations, e), budget))]
 
     def __repr__(self) -> str:
         if self.verdict.is_undecided:

@@ -1,0 +1,1 @@
+"""Regions without singularities: what joins two configurations or keeps them apart, and free boxes."""

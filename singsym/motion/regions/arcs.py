@@ -1,0 +1,130 @@
+"""The regions of a mechanism of one degree of freedom: arcs of the configuration curve, all of them, proven.
+
+Source: certified curves as in `singsym.varieties.real.curves`, cut at all exact zeros of the borders.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from singsym.effort.budget import Budget, Undecided
+from singsym.effort.verdict import Certainty, Verdict
+from singsym.motion.arithmetic import Arithmetic
+from singsym.motion.newton import Newton
+from singsym.motion.numeric import numeric_equation
+from singsym.motion.regions.borders import Border
+from singsym.motion.regions.free_motion import FreeMotions, Place
+from singsym.motion.regions.result import Region, Regions
+from singsym.polynomials import Polynomial
+from singsym.polynomials.compiled_map import Floats
+from singsym.varieties.real.curves.cuts import CurvePiece, CutCurve
+from singsym.varieties.real.curves.real_curve import real_curve
+
+_SECONDS = 120.0
+_SHARES = (0.5, 0.3, 0.7, 0.1, 0.9)
+"""Where on an arc a configuration of it is taken, the first that is proven."""
+
+
+@dataclass(frozen=True, eq=False)
+class Arcs:
+    """The configuration curve without the zeros of all borders; raises `Undecided` where it is not proven.
+
+    Lemma: inside a region no border's polynomial vanishes, so a region is a connected part of the curve
+    without their zeros, on which limits are positive; and each such part is one.
+    """
+
+    motions: FreeMotions
+
+    @cached_property
+    def _cut(self) -> tuple[CutCurve, Certainty]:
+        borders = self.motions.borders
+        if borders.unwritten:
+            raise Undecided(f"condition ({borders.unwritten[0]}) is not written out as one equation")
+        squares = [_sum_of_squares(hole) for hole in borders.holes]
+        budget = Budget(_SECONDS)
+        curve = real_curve(borders.equation.space.equations, budget=budget)
+        cut = curve.cut(*(b.polynomial for b in borders.all), *squares, budget=budget)
+        return cut.value, cut.certainty
+
+    @property
+    def certainty(self) -> Certainty:
+        """How the arcs are known."""
+        return self._cut[1]
+
+    def number(self, place: Place) -> int:
+        """On which arc a configuration is."""
+        count = len(self.motions.borders.equation.space.ring.names)
+        return self._cut[0].piece_of(place.near.box[:count])
+
+    def regions(self) -> Iterator[Region]:
+        """The arcs within limits; raises `Undecided` where no configuration of one is proven."""
+        cut = self._cut[0]
+        limits = [k for k, b in enumerate(self.motions.borders.all) if b.condition == "limit"]
+        for number, piece in enumerate(cut.pieces):
+            place, signs = self._inside(number, piece)
+            if all(signs[k] > 0 for k in limits):
+                yield self._region(place, signs, piece, cut)
+
+    def _inside(self, number: int, piece: CurvePiece) -> tuple[Floats, tuple[int, ...]]:
+        """A configuration of an arc, and the signs of the borders there."""
+        count = len(self.motions.borders.equation.space.ring.names)
+        for share in _SHARES if len(piece.line) else ():
+            point = self._on_curve(piece.line, share)
+            near = self.motions.near(point)
+            signs = () if near is None else self.motions.borders.signs(near.box)
+            if near is None or not all(signs):
+                continue
+            try:
+                if self._cut[0].piece_of(near.box[:count]) == number:
+                    return point, signs
+            except Undecided:
+                continue
+        raise Undecided("no configuration of one of the arcs was proven")
+
+    def _on_curve(self, line: Floats, share: float) -> Floats:
+        """A configuration next to a place on a polyline, by Newton's method."""
+        places = np.arange(len(line), dtype=float)
+        at = share * places[-1]
+        near = np.array([np.interp(at, places, column) for column in line.T])
+        space = self.motions.space
+        values = (space.at(near)[0] * np.array(space.units)).tolist()
+        given = {label: np.array(x) for label, x in zip(space.labels, values, strict=True)}
+        return Newton(self.motions.system, Arithmetic()).onto(given, near)
+
+    def _region(self, point: Floats, signs: tuple[int, ...], piece: CurvePiece, cut: CutCurve) -> Region:
+        linkage = numeric_equation(self.motions.borders.equation)
+        ends = [cut.removed[k] for k in piece.points]
+        return Region(
+            dict(zip(linkage.names, point.tolist(), strict=True)),
+            {label: float(value) for label, value in linkage.joints(point).items()},
+            signs,
+            tuple(b for b in self.motions.borders.all if any(p.sign(b.polynomial) == 0 for p in ends)),
+            piece.line,
+            np.zeros((0, 1), dtype=int),
+        )
+
+
+def _sum_of_squares(hole: tuple[Polynomial, ...]) -> Polynomial:
+    return sum((p * p for p in hole[1:]), hole[0] * hole[0])
+
+
+def arcs(motions: FreeMotions) -> Regions:
+    """The regions of a mechanism with n = 1."""
+    borders: tuple[Border, ...] = motions.borders.all
+    found = Arcs(motions)
+    try:
+        regions = sorted(found.regions(), key=lambda r: -_length(r.points))
+        verdict = Verdict.yes(
+            found.certainty, reason="all arcs of the configuration curve between its borders"
+        )
+    except Undecided as reason:
+        regions, verdict = [], Verdict.undecided(str(reason))
+    return Regions(motions.borders.equation, borders, tuple(regions), verdict)
+
+
+def _length(line: Floats) -> float:
+    return float(np.linalg.norm(np.diff(line, axis=0), axis=1).sum())

@@ -1,0 +1,163 @@
+"""Regions and free boxes against counts and bounds worked out by hand."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from itertools import product
+
+import numpy as np
+import pytest
+import sympy
+
+from singsym.classes.configuration.at import at
+from singsym.mechanism import Limit, load, loads
+from singsym.mechanism.problems import MechanismError
+from singsym.motion.numeric import numeric
+from singsym.motion.regions.free_box import free_box
+from singsym.motion.regions.regions import regions
+from singsym.output.motion.regions_page import regions_page
+
+FOUR_BAR = """
+name = "bar"
+inputs = ["A"]
+output = {{ rate = "D" }}
+
+[links]
+ground = {{ points = {{ A = [0, 0], D = [{0}, 0] }} }}
+AB = {1}
+BC = {2}
+CD = {3}
+
+[joints]
+A = "R"
+B = "R"
+C = "R"
+D = "R"
+"""
+
+
+@pytest.mark.parametrize(
+    ("lengths", "count"),
+    [
+        # a crank that turns round and a rocker: 4 dead centres (RI, IO) on two circuits, so 4 arcs
+        (("4", "1", "7/2", "3"), 4),
+        # a drag link: nothing is singular, both circuits are whole
+        (("1", "3", "7/2", "4"), 2),
+        # Grashof's condition fails: one circuit, cut at 2 + 2 points
+        (("2", "2", "2", "5"), 4),
+    ],
+)
+def test_arcs_of_four_bars(lengths: tuple[str, ...], count: int) -> None:
+    """The singular points of row 1 of the literature list, and circuits by Grashof's rule, cut into arcs."""
+    quoted = [f'"{length}"' for length in lengths]
+    found = regions(loads(FOUR_BAR.format(*quoted)))
+    assert found.verdict.is_yes
+    assert found.verdict.certainty == "certified"
+    assert len(found.regions) == found.at_least == count
+
+
+def test_a_limit_is_a_barrier_and_no_singularity() -> None:
+    """A slide that may not be behind the crank's pivot has one working side: two arcs, up and down; where the
+    length must be 3 or less each is cut short at the limit."""
+    limited = regions(load("slider-crank"))
+    assert len(limited.regions) == 2
+    limit = Limit(sympy.Symbol("length(P)"), low=sympy.Integer(0), high=sympy.Integer(3))
+    found = regions(replace(load("slider-crank"), limits=(limit,)))
+    assert len(found.regions) == 2
+    for region in found.regions:
+        assert [b.is_singular for b in region.ends] == [True, False]
+        assert "d_P" in region.ends[1].words
+        # at the limit (3 - cos A)^2 + sin^2 A = 9, so cos A = 1/6
+        angles = np.abs(np.arctan2(region.points[:, 1], region.points[:, 0]))
+        assert angles.min() == pytest.approx(math.acos(1 / 6), abs=1e-6)
+    assert any("barriers" in block for block in regions_page("s", found) if isinstance(block, str))
+
+
+def test_the_arm_of_two_links_has_two_regions() -> None:
+    """The determinant is a multiple of sin B: the halves B > 0 and B < 0 of the torus."""
+    found = regions(load("2r"), grid=24)
+    assert len(found.regions) == found.at_least == 2
+    assert found.apart(0, 1).is_yes
+    assert found.assemblies is not None
+    assert (found.assemblies == 1).all()
+    for region in found.regions:
+        angles = found.axes[1][region.cells[:, 1]]
+        assert (np.sign(angles) == np.sign(region.joints["B"])).all()
+        assert len(region.cells) == 24 * 12
+
+
+def test_the_five_bar_has_eight_regions() -> None:
+    """Cranks of 2, rods of 3, base 1.  BD < 6, so B, C, D are in line only where B is on D: C is on either
+    side of BD.  Each of ABC and CDE turns left or right, independently: 2 x 2 x 2, and each is met.
+
+    The parts of the input plane are those of a grid of points, worked out here.
+    """
+    found = regions(load("five-bar"), grid=24)
+    assert {r.signs for r in found.regions} == set(product((1, -1), repeat=3))
+    assert len(found.regions) == found.at_least == 8
+    a, e = np.meshgrid(*found.axes, indexing="ij")
+    b = 2 * np.array([np.cos(a), np.sin(a)])
+    d = np.array([1.0, 0.0])[:, None, None] - 2 * np.array([np.cos(e), np.sin(e)])
+    middle, gap = (b + d) / 2, d - b
+    half = np.hypot(*gap) / 2
+    across = np.array([-gap[1], gap[0]]) / (2 * half) * np.sqrt(9 - half**2)
+    counts = []
+    for side in (1, -1):
+        c = middle + side * across
+        one = np.sign(b[0] * c[1] - b[1] * c[0])
+        two = np.sign((c - d)[0] * d[1] - (c - d)[1] * (d[0] - 1))
+        counts += [int(((one == s) & (two == t)).sum()) for s in (1, -1) for t in (1, -1)]
+    cells = sorted(len(r.cells) for r in found.regions)
+    # cells on borders may be missed
+    assert np.abs(np.array(cells) - sorted(counts)).max() <= 3
+
+
+def test_larger_mobilities_are_refused_with_what_there_is_for_them() -> None:
+    with pytest.raises(MechanismError, match="free box"):
+        regions(load("3rpr"))
+
+
+# -- free boxes --------------------------------------------------------------------------------------
+
+
+def test_a_free_box_of_the_slider_crank_ends_before_its_dead_points() -> None:
+    """These are at 0 and 180 degrees."""
+    crank = at(load("slider-crank"), {"joints": {"A": "60 deg", "P": "(1 + sqrt(33)) / 2"}})
+    low, high = free_box(crank).inputs["A"]
+    assert 0 < low < 0.1
+    assert 3.0 < high < math.pi
+    fewer = free_box(crank, tests=20)
+    assert low <= fewer.inputs["A"][0] < 1 < fewer.inputs["A"][1] <= high
+
+
+def test_no_sample_in_a_free_box_of_a_platform_is_singular() -> None:
+    """Six legs: configurations over random lengths inside have determinants of the legs' lines, worked out
+    here, of one sign."""
+    platform = load("stewart-gough")
+    linkage = numeric(platform)
+    heights = {"B1": ["3/5", 1, "21/5"], "B2": ["8/3", 1, 4], "B3": ["17/5", 1, "17/3"]}
+    centre = at(platform, {"points": heights})
+    found = free_box(centre, tests=30)
+    assert found.clear > 0
+    ends = np.array([found.inputs[label] for label in linkage.inputs])
+    random = np.random.default_rng(1)
+    lengths = random.uniform(ends[:, 0], ends[:, 1], (200, 6))
+    start = np.tile([float(centre.values[name]) for name in linkage.names], (200, 1))
+    q = linkage.near(dict(zip(linkage.inputs, lengths.T, strict=True)), start)
+    assert np.isfinite(q).all()
+    places = linkage.points(q)
+    lines = []
+    for k in range(1, 7):
+        base, top = places[f"A{k}"], places[f"B{k}"]
+        lines.append(np.concatenate([top - base, np.cross(base, top - base)], axis=-1))
+    values = np.linalg.det(np.stack(lines, axis=-2))
+    assert (np.sign(values) == np.sign(values[0])).all()
+    for name, (low, high) in found.variables.items():
+        k = linkage.names.index(name)
+        assert ((low <= q[:, k]) & (q[:, k] <= high)).all()
+
+
+def test_no_box_around_a_singular_configuration() -> None:
+    with pytest.raises(MechanismError, match="on a border"):
+        free_box(at(load("2r"), {"joints": {"A": 0, "B": 0}}))
