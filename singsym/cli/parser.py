@@ -115,7 +115,7 @@ def parser() -> argparse.ArgumentParser:
     add(
         "plot",
         "pictures",
-        "draw the mechanism, its modules, a class or the singularity curves",
+        "draw a mechanism, its modules, a class or the curves",
         options.mechanism,
         options.work,
         options.shown,
