@@ -13,9 +13,10 @@ from flint import fmpq, fmpz
 from hypothesis import given
 from hypothesis import strategies as st
 
+from singsym.classes.realisation.alike import AlikeTask, realise_alike
 from singsym.classes.realisation.certified_configuration import Names
 from singsym.classes.realisation.curve_components import CurveTask, count
-from singsym.classes.realisation.realisation import RealTask, realise
+from singsym.classes.realisation.realisation import RealTask
 from singsym.classes.running.json_codec import Mismatch, codec, decode, encode
 from singsym.classes.solve import LocusTask, solve_locus
 from singsym.classes.strata.branches import Branch, Explored, explore
@@ -110,7 +111,8 @@ def tasks(name: str) -> Any:
     yield explore, root
     explored = explore(root)
     yield from ((explore, branch) for branch in explored.following[:2])
-    yield from ((realise, RealTask(part, feasible, names, 20)) for part in explored.found[:3])
+    alone = (AlikeTask(RealTask(part, feasible, names, 20)) for part in explored.found[:3])
+    yield from ((realise_alike, task) for task in alone)
     for path in found["4"].polynomials:
         yield solve_locus, LocusTask(path, space.equations, feasible, names, 20)
         yield count, CurveTask(((*space.equations, *path),), ((),), 20)
