@@ -45,6 +45,7 @@ def factors(mechanism: singsym.Mechanism, *names: str) -> set[str]:
     return {str(part.polynomial) for part in found.parts}
 
 
+@pytest.mark.engines
 def test_the_borders_of_a_four_bar_are_grashofs_lines():
     # it lies flat where g +- a +- b +- c = 0, here with g = 4 and c = 3; besides only sides of no length
     R = Ring(("a", "b"))
@@ -73,6 +74,7 @@ def grashof(g: Fraction, a: Fraction, b: Fraction, c: Fraction) -> dict[int, int
     return {number: points for number, points in found.items() if points}
 
 
+@pytest.mark.engines
 def test_each_cell_of_a_four_bar_has_the_table_that_triangles_give():
     found = singsym.design(singsym.load("fourbar").with_parameters(g=1), ["a", "b"], cache=False)
     assert not found.undecided
@@ -105,6 +107,7 @@ def test_one_length_of_a_four_bar_by_hand():
     assert found.latex().count(r"\left(") == 4
 
 
+@pytest.mark.engines
 def test_the_borders_of_a_slider_crank_with_offset():
     # it can lie flat, across the slide, where e = +-r +- l with l = 3; besides only a crank of no length
     found = factors(singsym.loads(OFFSET), "r", "e")
