@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from singsym.cli.mechanisms import complaint, read
-from singsym.cli.screen import UserError, emit_data, emit_latex, emit_page, progress_shown, say, writable
+from singsym.cli.screen import UserError, drawable, emit_data, emit_latex, emit_page, progress_shown, say
 from singsym.cli.singularities import UNDECIDED, cluster_of, limits_of, resumable
 from singsym.mechanism import Mechanism, MechanismError
 
@@ -22,7 +22,7 @@ def run_design(chosen: argparse.Namespace) -> int:
     """`singsym design MECHANISM --parameters a,b`, or `--values a=1,2` for samples; exit code 3: open."""
     mechanism = read(chosen)
     if chosen.output:
-        writable(Path(chosen.output))
+        drawable(Path(chosen.output))
         if chosen.values:
             raise UserError("found --output with --values; a chart needs --parameters")
     resumable(chosen)
@@ -47,10 +47,7 @@ def _designed(mechanism: Mechanism, chosen: argparse.Namespace, work: dict[str, 
 
     found = design(mechanism, [name.strip() for name in chosen.parameters.split(",")], **work)
     if chosen.output:
-        try:
-            found.plot().save(chosen.output)
-        except ValueError as error:
-            raise UserError(str(error)) from None
+        found.plot().save(chosen.output)
         say(f"written: {chosen.output}")
     _emit(found, chosen)
     return UNDECIDED if found.undecided else 0

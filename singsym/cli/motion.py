@@ -6,6 +6,8 @@ Source: singsym's own.
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -32,25 +34,32 @@ def run_export(chosen: argparse.Namespace) -> int:
     return 0
 
 
-def run_follow(chosen: argparse.Namespace) -> int:
-    """`singsym follow MECHANISM FILE`; exit code 3 where the motion is not proven throughout."""
-    mechanism = read(chosen)
-    placed(mechanism, chosen.formulation)
-    if chosen.output:
-        drawable(Path(chosen.output))
+@contextmanager
+def _in_words() -> Iterator[None]:
+    """What is wrong with a configuration, its values or files inside is said to the user."""
     try:
-        found = _followed(mechanism, chosen)
-        if chosen.output:
-            from singsym.output.motion.follow_page import plot_margins
-
-            plot_margins(found, mechanism.title or mechanism.name).save(chosen.output)
-            say(f"written: {chosen.output}")
+        yield
     except MechanismError as error:
         raise UserError(complaint(error.problems)) from None
     except ValueError as error:
         raise UserError(str(error)) from None
     except OSError as error:
         raise UserError(f"{error.filename} cannot be read or written: {error.strerror}") from None
+
+
+def run_follow(chosen: argparse.Namespace) -> int:
+    """`singsym follow MECHANISM FILE`; exit code 3 where the motion is not proven throughout."""
+    mechanism = read(chosen)
+    placed(mechanism, chosen.formulation)
+    if chosen.output:
+        drawable(Path(chosen.output))
+    with _in_words():
+        found = _followed(mechanism, chosen)
+        if chosen.output:
+            from singsym.output.motion.follow_page import plot_margins
+
+            plot_margins(found, mechanism.title or mechanism.name).save(chosen.output)
+            say(f"written: {chosen.output}")
     from singsym.output.motion.follow_page import follow_data, follow_page
 
     if chosen.format == "json":
@@ -80,15 +89,8 @@ def run_regions(chosen: argparse.Namespace) -> int:
         raise UserError("found -o with --from; expected it without: the picture is of all regions")
     if chosen.output:
         drawable(Path(chosen.output))
-    try:
-        with progress_shown():
-            page, data, is_decided = _regions(mechanism, chosen)
-    except MechanismError as error:
-        raise UserError(complaint(error.problems)) from None
-    except ValueError as error:
-        raise UserError(str(error)) from None
-    except OSError as error:
-        raise UserError(f"{error.filename} cannot be read or written: {error.strerror}") from None
+    with _in_words(), progress_shown():
+        page, data, is_decided = _regions(mechanism, chosen)
     if chosen.format == "json":
         emit_data(data)
     else:

@@ -22,15 +22,13 @@ from singsym.designs.line import Root, roots, samples
 from singsym.designs.plane import Plane, signs
 from singsym.designs.result import Cell, Design
 from singsym.designs.sampling import at_samples
+from singsym.effort import patience
 from singsym.effort.budget import Budget
 from singsym.effort.progress import Sink, to
 from singsym.elimination.ideal import Ideal
 from singsym.mechanism.model import Mechanism
 from singsym.mechanism.problems import MechanismError, Problem
 from singsym.polynomials import Polynomial
-
-_BORDER = 20.0
-"""Seconds of work for the borders of one stratum."""
 
 
 def design(
@@ -65,18 +63,16 @@ def design(
         with running(workers, executor, limits.clock, cache) as runner:
             whole = Budget(limits.clock, work=limits.total)
             found = family(symbolic, formulation, runner, seconds=limits.seconds, budget=whole)
-            border = borders(found, limits.part(_BORDER))
+            border = borders(found, limits.part(patience.BORDER.work))
         parts = _line(found, border) if len(names) == 1 else _plane(found, border, (names[0], names[1]))
-        chosen = [cell for cell in (*parts.cells, *parts.values) if not cell.reason]
-        tables = at_samples(
-            symbolic, [cell.sample for cell in chosen], formulation, limits, workers, executor, cache
-        )
-    done = dict(zip(map(id, chosen), tables, strict=True))
+        samples_in = [cell.sample for cell in (*parts.cells, *parts.values) if not cell.reason]
+        tables = iter(at_samples(symbolic, samples_in, formulation, limits, workers, executor, cache))
 
     def filled(cell: Cell) -> Cell:
-        if id(cell) not in done:
+        if cell.reason:
             return cell
-        return replace(cell, classification=done[id(cell)].classification, reason=done[id(cell)].reason)
+        table = next(tables)
+        return replace(cell, classification=table.classification, reason=table.reason)
 
     dividing = tuple(part for part in border.parts if part.polynomial in parts.dividing)
     return Design(
@@ -158,8 +154,8 @@ def _shown(root: Root) -> str:
 def _value(name: str, root: Root) -> Cell:
     if root.value is None:
         reason = f"it is a root of degree {root.polynomial.total_degree}, which is not put in"
-        return Cell({}, f"{name} = {float(root):.6g}...", None, reason)
-    return Cell({name: root.value}, f"{name} = {root.value}", None)
+        return Cell({}, f"{name} = {float(root):.6g}...", None, reason, about=float(root))
+    return Cell({name: root.value}, f"{name} = {root.value}", None, about=float(root))
 
 
 def _plane(found: Family, border: Borders, names: tuple[str, str]) -> _Parts:

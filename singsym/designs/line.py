@@ -14,7 +14,7 @@ import sympy
 from flint import fmpz, fmpz_poly
 
 from singsym.polynomials import Polynomial
-from singsym.varieties.real.points.roots import real_roots
+from singsym.varieties.real.points.roots import halved, real_roots
 
 
 @dataclass(frozen=True)
@@ -47,13 +47,9 @@ class Root:
     def narrow(self, halvings: int) -> tuple[Fraction, Fraction]:
         """The interval, halved so many times."""
         (name,), low, high = self.polynomial.variables, self.low, self.high
-        rising = at(self.polynomial, {name: high}) > 0
+        own = univariate(self.polynomial, name)
         for _ in range(halvings if low < high else 0):
-            middle = (low + high) / 2
-            value = at(self.polynomial, {name: middle})
-            if value == 0:
-                return middle, middle
-            low, high = (low, middle) if (value > 0) == rising else (middle, high)
+            low, high = halved(own, low, high)
         return low, high
 
 

@@ -30,7 +30,8 @@ class Cell:
     """A connected part of the space of parameters, and the classification at an exact sample in it.
 
     sample: values of the parameters; where: the cell in words; signs: of `Design.dividing` in it, for two
-    parameters; places: the cells of `Design.plane` that it is made of; reason: why it has no classification.
+    parameters; places: the cells of `Design.plane` that it is made of; reason: why it has no classification;
+    about: of a value of the border, in floats.
     """
 
     sample: Mapping[str, sympy.Expr]
@@ -39,6 +40,7 @@ class Cell:
     reason: str = ""
     signs: tuple[int, ...] = ()
     places: tuple[tuple[int, int], ...] = ()
+    about: float | None = None
 
     def __repr__(self) -> str:
         return f"Cell({self.where!r}, {sum(e[0] > 0 for e in self.entries)} classes)"

@@ -90,6 +90,11 @@ LOCUS_HOLDS_PIECE = Patience(2.0, "a piece is not seen to lie in a locus")
 SMOOTHNESS = Patience(5.0, "whether the space is smooth is undecided")
 
 
+# what holds for many configurations or dimensions together
+ARCS = Patience(120.0, "the regions of a curve are undecided")
+BORDER = Patience(20.0, "a class is not proven constant over the cells of a design")
+
+
 @contextmanager
 def patiently() -> Iterator[None]:
     """Proofs over Q of what is known modulo primes may take much longer for the work inside.

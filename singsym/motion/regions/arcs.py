@@ -11,20 +11,17 @@ from functools import cached_property
 
 import numpy as np
 
+from singsym.effort import patience
 from singsym.effort.budget import Budget, Undecided
 from singsym.effort.verdict import Certainty, Verdict
-from singsym.motion.arithmetic import Arithmetic
-from singsym.motion.newton import Newton
-from singsym.motion.numeric import numeric_equation
 from singsym.motion.regions.borders import Border
 from singsym.motion.regions.free_motion import FreeMotions, Place
 from singsym.motion.regions.result import Region, Regions
-from singsym.polynomials import Polynomial
 from singsym.polynomials.compiled_map import Floats
 from singsym.varieties.real.curves.cuts import CurvePiece, CutCurve
 from singsym.varieties.real.curves.real_curve import real_curve
+from singsym.varieties.real.system import RealSystem
 
-_SECONDS = 120.0
 _SHARES = (0.5, 0.3, 0.7, 0.1, 0.9)
 """Where on an arc a configuration of it is taken, the first that is proven."""
 
@@ -44,9 +41,10 @@ class Arcs:
         borders = self.motions.borders
         if borders.unwritten:
             raise Undecided(f"condition ({borders.unwritten[0]}) is not written out as one equation")
-        squares = [_sum_of_squares(hole) for hole in borders.holes]
-        budget = Budget(_SECONDS)
-        curve = real_curve(borders.equation.space.equations, budget=budget)
+        space = borders.equation.space
+        squares = RealSystem(space.ring, (), exclusions=borders.holes).exclusion_polynomials
+        budget = Budget(work=patience.ARCS.work)
+        curve = real_curve(space.equations, budget=budget)
         cut = curve.cut(*(b.polynomial for b in borders.all), *squares, budget=budget)
         return cut.value, cut.certainty
 
@@ -90,26 +88,17 @@ class Arcs:
         places = np.arange(len(line), dtype=float)
         at = share * places[-1]
         near = np.array([np.interp(at, places, column) for column in line.T])
-        space = self.motions.space
-        values = (space.at(near)[0] * np.array(space.units)).tolist()
-        given = {label: np.array(x) for label, x in zip(space.labels, values, strict=True)}
-        return Newton(self.motions.system, Arithmetic()).onto(given, near)
+        return self.motions.onto(self.motions.space.at(near)[0], near)
 
     def _region(self, point: Floats, signs: tuple[int, ...], piece: CurvePiece, cut: CutCurve) -> Region:
-        linkage = numeric_equation(self.motions.borders.equation)
         ends = [cut.removed[k] for k in piece.points]
         return Region(
-            dict(zip(linkage.names, point.tolist(), strict=True)),
-            {label: float(value) for label, value in linkage.joints(point).items()},
+            *self.motions.named(point),
             signs,
             tuple(b for b in self.motions.borders.all if any(p.sign(b.polynomial) == 0 for p in ends)),
             piece.line,
             np.zeros((0, 1), dtype=int),
         )
-
-
-def _sum_of_squares(hole: tuple[Polynomial, ...]) -> Polynomial:
-    return sum((p * p for p in hole[1:]), hole[0] * hole[0])
 
 
 def arcs(motions: FreeMotions) -> Regions:

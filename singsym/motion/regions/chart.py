@@ -15,13 +15,10 @@ from singsym.effort import progress
 from singsym.effort.verdict import Verdict
 from singsym.kinematics.sampling import sample_configurations
 from singsym.mechanism.problems import MechanismError, Problem
-from singsym.motion.numeric import numeric_equation
-from singsym.motion.regions.flood import Flood, axes_of
+from singsym.motion.regions.flood import SAMPLES, Flood, axes_of
 from singsym.motion.regions.free_motion import FreeMotions
 from singsym.motion.regions.result import Region, Regions
 
-_SAMPLES = 150
-"""Random configurations to begin with."""
 _CORNER = 4
 """So few cells are a corner that a step went around, not a region."""
 _TRIES = 5
@@ -34,7 +31,7 @@ def chart(motions: FreeMotions, grid: int, seed: int = 0) -> Regions:
     Raises `MechanismError` where no configuration is found.
     """
     borders, equation = motions.borders, motions.borders.equation
-    starts = np.array(sample_configurations(equation.space, _SAMPLES, seed))
+    starts = np.array(sample_configurations(equation.space, SAMPLES, seed))
     if not len(starts):
         raise MechanismError([Problem("regions", "no configuration", "a mechanism that can be assembled")])
     flood = Flood(motions, axes_of(motions, starts, grid))
@@ -53,7 +50,6 @@ def chart(motions: FreeMotions, grid: int, seed: int = 0) -> Regions:
 
 def _region(motions: FreeMotions, flood: Flood, nodes: list[int]) -> Region | None:
     """What is known of the region of some nodes; None where no configuration of it is proven."""
-    linkage = numeric_equation(motions.borders.equation)
     met: dict[int, int] = defaultdict(int)
     for node in nodes:
         for k in flood.met[node]:
@@ -63,8 +59,7 @@ def _region(motions: FreeMotions, flood: Flood, nodes: list[int]) -> Region | No
         signs = () if place is None else motions.borders.signs(place.near.box)
         if place is not None and all(signs):
             return Region(
-                dict(zip(linkage.names, place.point.tolist(), strict=True)),
-                {label: float(value) for label, value in linkage.joints(place.point).items()},
+                *motions.named(place.point),
                 signs,
                 tuple(b for k, b in enumerate(motions.borders.all) if met[k]),
                 np.array([flood.points[k] for k in nodes]),

@@ -23,6 +23,8 @@ from singsym.polynomials.compiled_map import CompiledMap, Floats
 _PARTS, _STEPS, _REACHED, _SAME, _FAR = 4, 4, 1e-8, 1e-4, 0.5
 """Parts of the way from cell to cell, and Newton's steps for each; values at their end; how near solutions
 are the same, and how far they may go in a part, both over the sizes of the variables."""
+SAMPLES = 150
+"""Random configurations to find the first ones of a grid."""
 
 Cell = tuple[int, ...]
 

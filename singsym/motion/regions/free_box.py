@@ -15,9 +15,7 @@ from flint import arb
 from singsym.classes.configuration.at import Analysis
 from singsym.effort import progress
 from singsym.mechanism.problems import MechanismError, Problem
-from singsym.motion.arithmetic import Arithmetic
 from singsym.motion.enclosures import BITS, Enclosure
-from singsym.motion.newton import Newton
 from singsym.motion.regions.borders import borders, input_space, point_of
 from singsym.motion.regions.free_motion import OUTSIDE, FreeMotions
 from singsym.polynomials.compiled_map import Floats
@@ -97,7 +95,6 @@ class _Paving:
         self.space, self.point = motions.space, point
         self.units = np.array(self.space.units)
         self.centre = self.space.at(point)[0]
-        self.newton = Newton(motions.system, Arithmetic())
         self.cells: list[_Cell] = []
         self.low = self.high = self.centre
 
@@ -188,9 +185,7 @@ class _Paving:
         start = self.space.at(point)[0]
         change = self.space.difference(values, start)
         for share in (0.25, 0.5, 0.75, 1.0):
-            at = (start + share * change) * self.units
-            given = {label: np.array(x) for label, x in zip(self.space.labels, at.tolist(), strict=True)}
-            point = self.newton.onto(given, point)
+            point = self.motions.onto(start + share * change, point)
         return point
 
     def _agree(self, at: Floats, near: Floats, one: Sequence[_Cell], two: Sequence[_Cell]) -> bool:

@@ -6,14 +6,18 @@ Source: certified continuation as in `singsym.motion.continuation`.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from flint import arb
 
+from singsym.motion.arithmetic import Arithmetic
 from singsym.motion.continuation import Continuation, MotionPiece
 from singsym.motion.coordinates import Coordinates
 from singsym.motion.drives import DrivenSystem, driven_system
 from singsym.motion.enclosures import BITS, Enclosure, Sheet
+from singsym.motion.newton import Newton
+from singsym.motion.numeric import NumericLinkage, numeric_equation
 from singsym.motion.regions.borders import Borders
 from singsym.motion.trajectory import Trajectory
 from singsym.polynomials.compiled_map import Floats
@@ -47,6 +51,25 @@ class FreeMotions:
         )
         self.sheet = Sheet(borders.equation, self.system)
         self._all = len(self.system.ring.names)
+
+    @cached_property
+    def _newton(self) -> Newton:
+        return Newton(self.system, Arithmetic())
+
+    @cached_property
+    def _linkage(self) -> NumericLinkage:
+        return numeric_equation(self.borders.equation)
+
+    def onto(self, inputs: Floats, near: Floats) -> Floats:
+        """The configuration over values of the inputs, over their units, that Newton's method reaches."""
+        values = (inputs * np.array(self.space.units)).tolist()
+        given = {label: np.array(x) for label, x in zip(self.space.labels, values, strict=True)}
+        return self._newton.onto(given, near)
+
+    def named(self, point: Floats) -> tuple[dict[str, float], dict[str, float]]:
+        """The values of the variables and of the joints in a configuration, by name."""
+        joints = {label: float(value) for label, value in self._linkage.joints(point).items()}
+        return dict(zip(self._linkage.names, point.tolist(), strict=True)), joints
 
     def place(self, point: Floats) -> Place | None:
         """A configuration known in doubles; None where it is not proven to be inside a region."""

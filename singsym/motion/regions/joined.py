@@ -20,14 +20,13 @@ from singsym.kinematics.sampling import sample_configurations
 from singsym.mechanism.problems import MechanismError, Problem
 from singsym.motion.regions.arcs import Arcs
 from singsym.motion.regions.borders import Border, borders, input_space, point_of
-from singsym.motion.regions.flood import Flood, axes_of
+from singsym.motion.regions.flood import SAMPLES, Flood, axes_of
 from singsym.motion.regions.free_motion import OUTSIDE, FreeMotions, Place
 from singsym.motion.trajectory import Trajectory
 from singsym.polynomials.compiled_map import Floats
 
 _GRIDS = {1: (360, 2880), 2: (48, 96)}
 """Cells along each input, by mobility: grids that are tried one after the other."""
-_SAMPLES = 150
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,7 +118,7 @@ def _paths(motions: FreeMotions, first: Place, last: Place, seed: int) -> Iterat
     yield motions.along(np.array([start, end]))
     if len(start) not in _GRIDS:
         return
-    lengths = sample_configurations(motions.borders.equation.space, _SAMPLES, seed)
+    lengths = sample_configurations(motions.borders.equation.space, SAMPLES, seed)
     met = np.array([first.point, last.point, *lengths])
     for grid in _GRIDS[len(start)]:
         progress.report("joined", f"a grid of {grid} cells along each input")

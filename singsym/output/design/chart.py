@@ -58,17 +58,16 @@ def _colours(found: Design) -> dict[Any, str]:
 
 def _draw_line(axes: Any, found: Design, colours: dict[Any, str]) -> None:
     name = found.parameters[0]
-    ends = [float(cell.sample[name]) for cell in found.values if cell.sample]
+    ends = [cell.about for cell in found.values if cell.about is not None]
+    ticks = [cell.about for cell in found.values if cell.about is not None and cell.sample]
     samples = [float(cell.sample[name]) for cell in found.cells]
-    ticks = sorted(ends)
-    low, high = min(samples + ends), max(samples + ends)
+    low, high = min(samples + ticks), max(samples + ticks)
     margin = _BEYOND * (high - low or 1.0)
-    inner = [float(cell.where.rpartition("= ")[2].rstrip(".")) for cell in found.values if not cell.sample]
-    cuts = [max(0.0, low - margin) if low > 0 else low - margin, *sorted(ends + inner), high + margin]
+    cuts = [max(0.0, low - margin) if low > 0 else low - margin, *ends, high + margin]
     for cell, left, right in zip(found.cells, cuts, cuts[1:], strict=False):
         axes.axvspan(left, right, facecolor=colours[cell.entries], alpha=0.45)
         axes.text((left + right) / 2, 0.5, _short(cell), ha="center", va="center", fontsize=8, color=INK)
-    for x in (*ends, *inner):
+    for x in ends:
         axes.axvline(x, color=INK, lw=1.0)
     axes.set_xlim(cuts[0], cuts[-1])
     axes.set_ylim(0, 1)

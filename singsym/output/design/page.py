@@ -16,6 +16,7 @@ from singsym.designs.result import Cell, Design, Entry
 from singsym.designs.sampling import Sampled, class_rows
 from singsym.effort.verdict import described
 from singsym.output.page import Block, Grid, Page
+from singsym.output.pieces import counted
 from singsym.polynomials.latex import polynomial_latex
 
 
@@ -87,9 +88,9 @@ def _entry_text(entry: Entry) -> str:
     if answer != "yes":
         return f"{name}: {answer}"
     if dimension == 0:
-        return f"{name}: {'?' if points is None else points} point{'' if points == 1 else 's'}"
+        return f"{name}: {counted('?' if points is None else points, 'point')}"
     if dimension == 1:
-        count = "" if components is None else f", {components} component{'' if components == 1 else 's'}"
+        count = "" if components is None else f", {counted(components, 'component')}"
         return f"{name}: a curve{count}"
     return f"{name}: {'of unknown dimension' if dimension is None else f'dimension {dimension}'}"
 

@@ -15,6 +15,7 @@ from singsym.motion.regions.free_box import FreeBox
 from singsym.motion.regions.joined import Joined
 from singsym.motion.regions.result import Region, Regions
 from singsym.output.page import Block, Grid, Page
+from singsym.output.pieces import counted
 
 _SIGNS = {1: "+", -1: "-", 0: "?"}
 _LONGEST = 30
@@ -25,7 +26,7 @@ def regions_page(name: str, found: Regions) -> Page:
     """How many regions there are, what bounds them, and a configuration of each."""
     equation, count = found.equation, len(found.regions)
     blocks: list[Block] = [f"{name}: N = {equation.N}, n = {equation.n}"]
-    many = f"{count} region{'' if count == 1 else 's'} without singularities"
+    many = f"{counted(count, 'region')} without singularities"
     if found.verdict.is_yes:
         blocks.append(f"{many}, {found.verdict.certainty}: {found.verdict.reason}.")
     else:

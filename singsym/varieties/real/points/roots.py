@@ -104,7 +104,7 @@ def refined_root(polynomial: fmpz_poly, low: Fraction, high: Fraction, bits: int
                 slope = derivative(interval)
                 if slope.contains(0):
                     current().check("the refinement of a real root")
-                    low, high = _halved(polynomial, low, high)
+                    low, high = halved(polynomial, low, high)
                     interval = ball(low).union(ball(high))
                     continue
                 step = middle - polynomial(middle) / slope
@@ -114,7 +114,8 @@ def refined_root(polynomial: fmpz_poly, low: Fraction, high: Fraction, bits: int
         precision *= 2
 
 
-def _halved(polynomial: fmpz_poly, low: Fraction, high: Fraction) -> tuple[Fraction, Fraction]:
+def halved(polynomial: fmpz_poly, low: Fraction, high: Fraction) -> tuple[Fraction, Fraction]:
+    """The half of an interval of `real_roots` that holds the root, or the root as both ends."""
     middle = (low + high) / 2
     at_low, at_middle = (polynomial(fmpq(x.numerator, x.denominator)) for x in (low, middle))
     if at_middle == 0:
