@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import combinations
 from typing import Literal
 
 from singsym.effort.attempts import attempt
@@ -315,7 +316,8 @@ def _by_eliminant(system: _System, given: Known[Ideal], dimension: int) -> Known
         return premises.conclude((Component(ideal, proven, dimension, "Cohen-Macaulay"),))
     found = premises.take(_analysed(ideal, system.macaulay and system.smallest == dimension))
     if found.factors and not any(premises.take(ideal.contains(f)) for f in found.factors):
-        pieces = [p for f in found.factors for p in premises.take(_refine(system.plus(f)))]
+        parts = premises.take(_along(system, ideal, found.factors))
+        pieces = [p for part in parts for p in premises.take(_refine(part))]
         return premises.pass_on(_all_in_ring(pieces, system.ring))
     if not found.prime and (primes := premises.take(_by_engine(given))):
         return premises.conclude(primes)
@@ -332,6 +334,26 @@ def _by_eliminant(system: _System, given: Known[Ideal], dimension: int) -> Known
             return premises.pass_on(prune((component, *others)))
     primes = premises.take(_by_engine(given)) if found.prime else ()
     return premises.conclude(primes or (Component(ideal, False, dimension),))
+
+
+def _along(system: _System, ideal: Ideal, factors: Sequence[Polynomial]) -> Known[tuple[_System, ...]]:
+    """Systems that together hold the zeros of an ideal in which a power of a product of factors is.
+
+    An ideal plus a factor is often a part with smaller ones beside it. Where these do not count, the zeros of
+    each factor outside the others are taken, and those that two have in common.
+    """
+    plain = tuple(map(system.plus, factors))
+    premises = Premises()
+    if premises.take(ideal.dimension) > system.smallest:
+        return Known(plain)
+    apart = list[_System]()
+    for f in factors:
+        outside = _saturated(ideal, _product([g for g in factors if g is not f], system.ring))
+        if outside is None:
+            return Known(plain)
+        apart.append(system.replaced((*premises.take(outside).generators, f), same_ideal=False))
+    common = (system.plus(f).plus(g) for f, g in combinations(factors, 2))
+    return premises.conclude((*apart, *common))
 
 
 def _smaller(

@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from singsym.effort.budget import Budget, BudgetExceeded, Undecided
+from singsym.effort.chance import use_seed
 from singsym.effort.chaos import chaos
 from singsym.effort.patience import scaled
 from singsym.elimination import engines
@@ -252,3 +253,19 @@ def test_pairs_of_determinants_of_the_linkage() -> None:
             ).value
             assert all(c.prime and c.dimension == 0 for c in found)
             assert bool(found) == ({first, second} != {"BCD", "ABC"})
+
+
+@pytest.mark.parametrize("drawn", [1, 5, 314007])
+def test_stretched_and_folded_cranks_of_all_lengths_are_two_pure_parts(drawn: int) -> None:
+    # C on a circle about (1, 0), B in line with the origin and C at the distances a from the one and b from the
+    # other, of either sign: |C| = a + b or a - b, each over C's curve and the line of all b
+    forget()
+    S = Ring(("Bx", "By", "Cx", "Cy", "a", "b"))
+    Bx, By, Cx, Cy, a, b = S.gens
+    apart = (Bx - Cx) ** 2 + (By - Cy) ** 2 - b**2
+    equations = (Bx**2 + By**2 - a**2, apart, (Cx - 1) ** 2 + Cy**2 - 9, By * Cx - Bx * Cy)
+    with use_seed(drawn), engines.use("flint"):
+        found = decompose(equations, ring=S).value
+    assert [(c.prime, c.dimension, c.is_pure) for c in found] == [(True, 2, True)] * 2
+    for sign in (1, -1):
+        assert sum(c.vanishes((a + sign * b) ** 2 - Cx**2 - Cy**2).value for c in found) == 1
