@@ -257,8 +257,8 @@ def test_pairs_of_determinants_of_the_linkage() -> None:
 
 @pytest.mark.parametrize("drawn", [1, 5, 314007])
 def test_stretched_and_folded_cranks_of_all_lengths_are_two_pure_parts(drawn: int) -> None:
-    # C on a circle about (1, 0), B in line with the origin and C at the distances a from the one and b from the
-    # other, of either sign: |C| = a + b or a - b, each over C's curve and the line of all b
+    # C on a circle about (1, 0), B in line with the origin and C, at the distance a from the one and b from
+    # the other, of either sign: |C| = a + b or a - b, each over C's curve and the line of all b
     forget()
     S = Ring(("Bx", "By", "Cx", "Cy", "a", "b"))
     Bx, By, Cx, Cy, a, b = S.gens
