@@ -59,7 +59,7 @@ def _are_apart(forces: tuple[_Force, ...]) -> bool:
 
 def _forces(equation: VelocityEquation) -> list[_Force]:
     """The lines of all links with two joints, of which one turns or both do."""
-    places = equation.space.places
+    places = {name: tuple(place) for name, place in equation.space.points.items()}
     if equation.architecture is None or any(len(place) != 2 for place in places.values()):
         return []
     joined = defaultdict[str, list[PlacedJoint]](list)

@@ -22,6 +22,7 @@ from singsym.elimination.linear_substitution import Substitution, solved_variabl
 from singsym.elimination.memo import remember
 from singsym.polynomials import Equations, Polynomial, Ring
 from singsym.polynomials.block_form import Module, SolvingOrder, block_form
+from singsym.varieties.disjoint_parts import disjoint_parts
 from singsym.varieties.real.modules.assemblies import assemblies, dyad, is_simple, value_at
 from singsym.varieties.real.modules.coverings import coverings
 from singsym.varieties.real.modules.lifted_curve import is_tower, points_on_tower
@@ -72,7 +73,17 @@ def has_no_assembly(equations: Equations) -> Verdict:
     if not equations:
         return Verdict.undecided("there are no equations")
     own = used_ring(equations[0].ring, equations)
-    equations = tuple(map(own.convert, equations))
+    premises, reasons = Premises(), dict[str, None]()
+    for part in disjoint_parts(tuple(map(own.convert, equations))):
+        found = _has_no_assembly(part)
+        if not found.is_yes:
+            return found
+        premises.rest_on(found.certainty)
+        reasons[found.reason] = None
+    return Verdict.yes(premises.certainty, reason="; ".join(reasons))
+
+
+def _has_no_assembly(equations: Equations) -> Verdict:
     if comes_apart(equations):
         with attempt("modules without an assembly", patience.ASSEMBLIES.work):
             found = module_points(equations)
