@@ -52,11 +52,13 @@ def _parts(equations: Equations) -> Iterator[Equations]:
 def _groups(equations: Equations) -> Iterator[Equations]:
     """Some of the equations: all in the variables of one of them, that are more than a dyad.
 
-    First without those in fewer than half of these, which say where one of three moving points is.
+    Lengths and points in line are of second degree.  First without those in fewer than half of these, which
+    say where one of three moving points is.
     """
-    for last in reversed(equations):
+    quadrics = [p for p in equations if p.total_degree <= 2]
+    for last in reversed(quadrics):
         names = set(last.variables)
-        group = tuple(p for p in equations if names.issuperset(p.variables))
+        group = tuple(p for p in quadrics if names.issuperset(p.variables))
         between = tuple(p for p in group if 2 * len(p.variables) >= len(names))
         for own in dict.fromkeys((between, group)):
             if 2 < len(own) < len(equations) and len(names) <= MOST_VARIABLES:
