@@ -110,10 +110,11 @@ def implied(at: RealSet, point: Mapping[str, Any]) -> fmpq_mpoly:
     """A polynomial off whose zeros all equations vanish where those of `square` do; raises `Rejected`.
 
     implied: the polynomial `local`; steps and equations as of `derive`, from the square system with one more
-    variable, the inverse of that polynomial.  Nothing where the square system has all equations.
+    variable, the inverse of that polynomial.  Nothing where the square system has all generators.
     """
-    square, data = listed(point, "square"), point.get("implied", {})
-    if set(square) == set(range(len(at.equations))):
+    own, data = chosen(at.equations, listed(point, "square"), "equation"), point.get("implied", {})
+    others = [g for g in at.generators if g and g not in own]
+    if not others:
         return at.context.constant(1)
     if not isinstance(data, dict):
         raise Rejected("the other equations are not seen to vanish at the point")
@@ -124,9 +125,8 @@ def implied(at: RealSet, point: Mapping[str, Any]) -> fmpq_mpoly:
     def raised(f: fmpq_mpoly) -> fmpq_mpoly:
         return f.project_to_context(larger)
 
-    start = [*(raised(at.equations[k]) for k in square), one - larger.gens()[0] * raised(local)]
+    start = [*map(raised, own), one - larger.gens()[0] * raised(local)]
     derived = derive(replace(at, context=larger, equations=tuple(start)), data)[0]
-    for k, equation in enumerate(at.equations):
-        if k not in square and remainder(raised(equation), derived.equations):
-            raise Rejected(f"equation {k} is not seen to vanish at the point")
+    if any(remainder(raised(g), derived.equations) for g in others):
+        raise Rejected("a generator is not seen to vanish at the point")
     return local

@@ -37,16 +37,17 @@ def point_leaf(at: RealSet, near: Sequence[Sequence[float]]) -> tuple[dict[str, 
 
     near: numerical points that may be of it; others are looked for where none of them is.
     """
-    places = range(len(at.equations))
-    orders = (sorted(places, key=lambda k: _length(at.equations[k])), list(places))
+    places = sorted(range(len(at.equations)), key=lambda k: _length(at.equations[k]))
+    # where all generators are taken nothing has to follow from them
+    orders = (sorted(places, key=lambda k: at.equations[k] not in at.generators), places)
     for start, order in product(_starts(at, near), orders):
         rows, columns = _independent(at, start, order)
         for grid in GRIDS:
             data = _boxed(at, start, rows, columns, grid)
             if data is None:
                 continue
-            if len(rows) < len(at.equations):
-                implied = _implied(at, rows)
+            if others := [g for g in at.generators if g not in [at.equations[k] for k in rows]]:
+                implied = _implied(at, rows, others)
                 if implied is None:
                     break
                 data["implied"] = implied
@@ -152,8 +153,8 @@ def _text(value: Fraction) -> str:
     return str(value)
 
 
-def _implied(at: RealSet, rows: list[int]) -> dict[str, Any] | None:
-    """How the other equations follow from the square system off the zeros of units; None where they do not.
+def _implied(at: RealSet, rows: list[int], others: Sequence[fmpq_mpoly]) -> dict[str, Any] | None:
+    """How other generators follow from the square system off the zeros of units; None where they do not.
 
     First without units, then with all of them.
     """
@@ -163,12 +164,11 @@ def _implied(at: RealSet, rows: list[int]) -> dict[str, Any] | None:
     for unit in at.units:
         units = units * unit
     square = [at.equations[k].project_to_context(larger) for k in rows]
-    others = [e.project_to_context(larger) for k, e in enumerate(at.equations) if k not in rows]
     for local in dict.fromkeys(map(str, (at.context.constant(1), units))):
         start = [*square, 1 - gen * polynomial(local, at.context).project_to_context(larger)]
         failures: list[Undecided] = []
         with attempt("that equations follow from others", FOLLOWS, failures=failures) as budget:
             found = traced_basis(start, budget)
-        if not failures and not any(remainder(e, found.basis) for e in others):
+        if not failures and not any(remainder(g.project_to_context(larger), found.basis) for g in others):
             return {"local": local, "steps": found.steps, "equations": found.equations}
     return None
