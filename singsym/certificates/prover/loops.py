@@ -6,6 +6,7 @@ what they find proves nothing, the checker's tubes do.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -18,7 +19,9 @@ from singsym.certificates.checker.points import chart_of, real_points
 from singsym.certificates.checker.polynomials import Rejected, determinant, remainder
 from singsym.certificates.checker.sets import RealSet
 from singsym.certificates.prover.finite import points_leaf
+from singsym.effort.attempts import attempt
 from singsym.effort.budget import Undecided, current
+from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Polynomial, Ring
 from singsym.polynomials.compiled_map import CompiledMap
 
@@ -27,7 +30,11 @@ Based = Callable[[RealSet], tuple[RealSet, dict[str, Any]]]
 """A Groebner basis of a set's equations: the set with it, and the steps of `derive`."""
 
 FIRST_STEP, LEAST_STEP, LARGEST_STEP = 0.2, 1e-4, 0.5
+COUNTED = 20.0
+"""Seconds of work in which the critical points of a coordinate are to be counted."""
 MOST_TUBES = 4000
+CORRECTIONS, EXACT = 8, 1e-9
+"""Newton's method ends after so many steps, or with one so short that the next would be of rounding only."""
 SHORTER = 0.3
 OVERLAP = 0.08
 """Tubes go on beyond both ends by this part of their length."""
@@ -98,35 +105,41 @@ def _is_definite(f: fmpq_mpoly, own: Sequence[int]) -> bool:
 def _critical(
     at: RealSet, square: Sequence[fmpq_mpoly], local: fmpq_mpoly, based: Based
 ) -> tuple[dict[str, Any] | None, list[Any]]:
-    """Critical points of a coordinate of which there are finitely many, and balls around the real ones."""
+    """Critical points of the coordinate that has the fewest, and balls around the real ones."""
+    best: tuple[float, int, Any] | None = None
     for own in reversed(range(len(at.variables))):
         others = [i for i in range(len(at.variables)) if i != own]
         # not reduced, as it comes apart into factors then
         found = local * determinant([[e.derivative(i) for i in others] for e in square], [])
-        if not remainder(found, at.equations):
-            continue
-        entries = []
-        balls: list[Any] = []
-        for part, multiplicity in sorted(found.factor()[1], key=lambda pair: len(pair[0])):
-            there, steps = based(at.within([part]))
-            entry = {"polynomial": str(part), "multiplicity": int(multiplicity), **steps}
-            if not any(e.is_constant() for e in there.equations if e):
-                if not _is_finite(there):
-                    break
-                entry |= points_leaf(there)
-                _, minimal, coordinates = chart_of(there, entry)
-                with ctx.workprec(ROOT_BITS):
-                    balls += real_points(minimal, [coordinates[n] for n in at.variables])
-            entries.append(entry)
-        else:
-            scale = found.factor()[0]
-            return {"variable": at.variables[own], "scale": str(scale), "factors": entries}, balls
-    return None, []
+        if remainder(found, at.equations):
+            factors = found.factor()
+            number = sum(_zeros(at.within([part])) for part, _ in factors[1])
+            if best is None or number < best[0]:
+                best = number, own, factors
+    if best is None or best[0] == math.inf:
+        return None, []
+    _, own, (scale, parts) = best
+    entries = []
+    balls: list[Any] = []
+    for part, multiplicity in sorted(parts, key=lambda pair: len(pair[0])):
+        there, steps = based(at.within([part]))
+        entry = {"polynomial": str(part), "multiplicity": int(multiplicity), **steps}
+        if not any(e.is_constant() for e in there.equations if e):
+            entry |= points_leaf(there)
+            _, minimal, coordinates = chart_of(there, entry)
+            with ctx.workprec(ROOT_BITS):
+                balls += real_points(minimal, [coordinates[n] for n in at.variables])
+        entries.append(entry)
+    return {"variable": at.variables[own], "scale": str(scale), "factors": entries}, balls
 
 
-def _is_finite(at: RealSet) -> bool:
-    leading = [e.monomial(0) for e in at.equations if e]
-    return all(any(sum(m) == m[i] for m in leading) for i in range(len(at.variables)))
+def _zeros(at: RealSet) -> float:
+    """How many complex zeros the equations have, with multiplicities."""
+    own = Ring(at.variables)
+    ideal = Ideal(own, [Polynomial(own, e) for e in at.equations if e])
+    with attempt("the number of critical points", COUNTED):
+        return ideal.vector_space_dimension.value if ideal.dimension.value <= 0 else math.inf
+    return math.inf
 
 
 class _Tracker:
@@ -185,12 +198,15 @@ class _Tracker:
 
     def _corrected(self, x: Floats, normal: Floats) -> Floats:
         """The point of the curve near another, in the hyperplane through it."""
-        for _ in range(8):
+        for _ in range(CORRECTIONS):
             matrix = numpy.vstack([self.map.jacobian(x), normal])
             try:
-                x = x - numpy.linalg.solve(matrix, numpy.append(self.map.values(x), 0.0))
+                step = numpy.linalg.solve(matrix, numpy.append(self.map.values(x), 0.0))
             except numpy.linalg.LinAlgError:
                 raise Undecided("a curve is singular near an arc") from None
+            x = x - step
+            if numpy.abs(step).max() < EXACT:
+                break
         return x
 
     def _tube(self, x: Floats, y: Floats, direction: Floats) -> tuple[Any, Tube] | None:
