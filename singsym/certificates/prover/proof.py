@@ -73,13 +73,14 @@ class _Prover:
     hints: Hints
     failures: list[Undecided] = field(default_factory=list)
 
-    def attempted(self, work: Callable[[], None], most: float = PART) -> None:
-        """Do what may not end in time; then parts of what it was for stay open."""
+    def attempted(self, work: Callable[[], int | None], most: float = PART) -> int | None:
+        """Do what may not end in time, for a number; None where parts of what it was for stay open."""
         with attempt("a certificate", most, failures=self.failures):
             try:
-                work()
+                return work()
             except Rejected as error:
                 raise Undecided(f"the checker would not follow: {error}") from None
+        return None
 
     def reduced(self, node: Node) -> Node:
         """The set with a smaller matrix: passive columns go with pivots that are products of units."""
@@ -102,37 +103,49 @@ class _Prover:
     def _split(self, node: Node, by: fmpq_mpoly, loci: Sequence[fmpq_mpoly]) -> Node | None:
         """What is left of a set off the zeros of a polynomial, which are dealt with; None if it is empty."""
         zero, rest = self.tree.apply(node, "split", by=str(by))
-        self.attempted(lambda: self._on_locus(zero, loci))
-        return None if self._is_empty(rest) else rest
+        dimension = self.attempted(lambda: self._on_locus(zero, loci))
+        # each component of complex zeros has at least this dimension (Krull)
+        least = len(node.at.variables) - len(node.at.generators)
+        if dimension is not None and dimension < least and (node.full or _has_zeros(node.at)):
+            return replace(rest, full=True)
+        return self._unless_empty(rest)
 
-    def _on_locus(self, node: Node, loci: Sequence[fmpq_mpoly]) -> None:
-        """A set with one more equation."""
+    def _on_locus(self, node: Node, loci: Sequence[fmpq_mpoly]) -> int:
+        """A set with one more equation; its dimension over the complex numbers."""
         node = self._based(node)
-        if self._is_empty(node):
+        dimension = dimension_above(node.at)
+        self._on_basis(node, loci)
+        return dimension
+
+    def _on_basis(self, node: Node, loci: Sequence[fmpq_mpoly]) -> None:
+        """A set with a Groebner basis among its equations."""
+        left = self._unless_empty(node)
+        if left is None:
             return
-        if terms := _squares(node.at):
-            (node,) = self.tree.apply(node, "squares", terms=terms)
-            self._on_locus(node, loci)
-            return
-        if dimension_above(node.at) == 0:
-            self.tree.leaf(node, "points", **points_leaf(node.at))
+        if terms := _squares(left.at):
+            (more,) = self.tree.apply(left, "squares", terms=terms)
+            self._on_locus(more, loci)
+        elif dimension_above(left.at) == 0:
+            self.tree.leaf(left, "points", **points_leaf(left.at))
         else:
-            self.take_apart(node, loci)
+            self.take_apart(left, loci)
 
     def _based(self, node: Node) -> Node:
         """The set with a Groebner basis among its equations."""
         if node.based:
             return node
-        (node,) = self.tree.apply(node, "derive", **_basis_steps(node.at))
-        return replace(node, based=True)
+        (found,) = self.tree.apply(node, "derive", **_basis_steps(node.at))
+        return replace(found, based=True, full=node.full)
 
-    def _is_empty(self, node: Node) -> bool:
-        """Whether a set is seen to be empty; then it is closed."""
+    def _unless_empty(self, node: Node) -> Node | None:
+        """A set, None where it is seen to be empty; then it is closed."""
+        if node.full:
+            return node
         at = node.at
         for place, equation in enumerate(at.equations):
             if equation and equation.is_constant():
                 self.tree.leaf(node, "empty", equation=place)
-                return True
+                return None
         ways = [[place] for place in range(len(at.units))]
         ways += [list(range(len(at.units)))] if len(at.units) > 1 else []
         for way in ways:
@@ -144,16 +157,19 @@ class _Prover:
                     data = {"polynomial": "1", "units": way * power, "power": 1}
                     (node,) = self.tree.apply(node, "cancel", **data)
                     self.tree.leaf(node, "empty", equation=len(node.at.equations) - 1)
-                    return True
-        return False
+                    return None
+        return replace(node, full=node.based)
 
     # -- ranks ---------------------------------------------------------------------------------------
 
     def _ranked(self, node: Node) -> None:
         """A leaf with the ranks of a set, or the set split where a minor vanishes."""
-        node = self._based(node)
-        if self._is_empty(node):
-            return
+        left = self._unless_empty(self._based(node))
+        if left is not None:
+            self._ranked_on_basis(left)
+
+    def _ranked_on_basis(self, node: Node) -> None:
+        """The same of a set with points, with a Groebner basis among its equations."""
         at, evidence = node.at, dict[str, list[dict[str, Any]]]()
         for name, exact in _questions(at, self.tree.about):
             if len(self._types(at, evidence)) == 1:
@@ -258,6 +274,12 @@ def _basis_steps(at: RealSet) -> dict[str, Any]:
     is_unit = bool(found.basis) and found.basis[0].is_constant()
     kept = [] if is_unit else [k for k in range(len(at.equations)) if k not in found.equations]
     return {"steps": found.steps, "equations": [*kept, *found.equations]}
+
+
+def _has_zeros(at: RealSet) -> bool:
+    """Whether the equations of a set that excludes nothing have complex zeros."""
+    own = Ring(at.variables)
+    return not at.units and Ideal(own, [Polynomial(own, e) for e in at.equations if e]).dimension.value >= 0
 
 
 def _squares(at: RealSet) -> list[list[str]]:

@@ -14,11 +14,16 @@ from singsym.certificates.checker.sets import RealSet, Statement
 
 @dataclass(frozen=True)
 class Node:
-    """A set and its number; based: whether its equations hold a Groebner basis of their ideal."""
+    """A set and its number.
+
+    based: whether its equations hold a Groebner basis of their ideal; full: whether it has complex points, as
+    far as they are looked for.
+    """
 
     number: int
     at: RealSet
     based: bool = False
+    full: bool = False
 
 
 @dataclass
