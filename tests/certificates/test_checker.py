@@ -216,7 +216,7 @@ def test_a_curve_of_more_equations_than_it_needs() -> None:
     assert components(at, leaf, point) == 1
     with pytest.raises(Rejected):
         components(at, leaf, _square(1))
-    with pytest.raises(Rejected, match="equation 1 is not seen"):
+    with pytest.raises(Rejected, match="a generator is not seen"):
         components(whole("x^2 + y^2 - 1", "x - y"), leaf, point)
 
 
