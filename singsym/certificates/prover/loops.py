@@ -26,8 +26,8 @@ from singsym.polynomials import Polynomial, Ring
 from singsym.polynomials.compiled_map import CompiledMap
 
 Floats = NDArray[numpy.float64]
-Based = Callable[[RealSet], tuple[RealSet, dict[str, Any]]]
-"""A Groebner basis of a set's equations: the set with it, and the steps of `derive`."""
+Based = Callable[[RealSet, int], tuple[RealSet, dict[str, Any]]]
+"""The set with a Groebner basis of its equations, of which so many first ones may hold one, and the steps."""
 
 FIRST_STEP, LEAST_STEP, LARGEST_STEP = 0.2, 1e-4, 0.5
 COUNTED = 20.0
@@ -122,7 +122,7 @@ def _critical(
     entries = []
     balls: list[Any] = []
     for part, multiplicity in sorted(parts, key=lambda pair: len(pair[0])):
-        there, steps = based(at.within([part]))
+        there, steps = based(at.within([part]), len(at.equations))
         entry = {"polynomial": str(part), "multiplicity": int(multiplicity), **steps}
         if not any(e.is_constant() for e in there.equations if e):
             entry |= points_leaf(there)

@@ -132,10 +132,10 @@ class _Prover:
 
     def _based(self, node: Node) -> Node:
         """The set with a Groebner basis among its equations."""
-        if node.based:
+        if _is_based(node):
             return node
-        (found,) = self.tree.apply(node, "derive", **_basis_steps(node.at))
-        return replace(found, based=True, full=node.full)
+        (found,) = self.tree.apply(node, "derive", **_basis_steps(node.at, node.based))
+        return replace(found, based=len(found.at.equations), full=node.full)
 
     def _unless_empty(self, node: Node) -> Node | None:
         """A set, None where it is seen to be empty; then it is closed."""
@@ -158,7 +158,7 @@ class _Prover:
                     (node,) = self.tree.apply(node, "cancel", **data)
                     self.tree.leaf(node, "empty", equation=len(node.at.equations) - 1)
                     return None
-        return replace(node, full=node.based)
+        return replace(node, full=_is_based(node))
 
     # -- ranks ---------------------------------------------------------------------------------------
 
@@ -265,12 +265,22 @@ class _Prover:
         return {"below": 1}
 
 
-def _basis_steps(at: RealSet) -> dict[str, Any]:
-    """The rule `derive` to a Groebner basis, and the equations there are where they are not all of it."""
+def _is_based(node: Node) -> bool:
+    """Whether the equations of a set hold a Groebner basis of their ideal."""
+    return node.based == len(node.at.equations)
+
+
+def _basis_steps(at: RealSet, known: int) -> dict[str, Any]:
+    """The rule `derive` to a Groebner basis, and the equations there are where they are not all of it.
+
+    known: so many of the first equations may hold a basis of their own ideal.
+    """
     own = Ring(at.variables)
     ideal = Ideal(own, [Polynomial(own, e) for e in at.equations if e])
     target = [tuple(map(int, m)) for m in ideal.leading_monomials().value]
-    found = traced_basis(at.equations, current(), target)
+    found = traced_basis(at.equations, current(), target, known)
+    if {*target} - {tuple(map(int, e.monomial(0))) for e in found.basis}:
+        found = traced_basis(at.equations, current(), target)
     is_unit = bool(found.basis) and found.basis[0].is_constant()
     kept = [] if is_unit else [k for k in range(len(at.equations)) if k not in found.equations]
     return {"steps": found.steps, "equations": [*kept, *found.equations]}
@@ -293,9 +303,9 @@ def _squares(at: RealSet) -> list[list[str]]:
     return []
 
 
-def based(at: RealSet) -> tuple[RealSet, dict[str, Any]]:
-    """The set with a Groebner basis, and the steps to it."""
-    steps = _basis_steps(at)
+def based(at: RealSet, known: int = 0) -> tuple[RealSet, dict[str, Any]]:
+    """The set with a Groebner basis, and the steps to it; known: as `_basis_steps` has it."""
+    steps = _basis_steps(at, known)
     return derive(at, steps)[0], steps
 
 

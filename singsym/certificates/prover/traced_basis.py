@@ -28,15 +28,18 @@ class TracedBasis:
 
 
 def traced_basis(
-    equations: Sequence[fmpq_mpoly], budget: Budget, target: Sequence[Monomial] | None = None
+    equations: Sequence[fmpq_mpoly],
+    budget: Budget,
+    target: Sequence[Monomial] | None = None,
+    based: int = 0,
 ) -> TracedBasis:
     """The reduced Groebner basis of some polynomials; raises `Undecided` at the end of the budget.
 
     target: the leading monomials of the ideal, where they are known: when all are there no more pairs are
-    tried.
+    tried.  based: so many of the first equations hold a Groebner basis, and have no pairs of their own.
     """
     work = _Work(list(equations), budget, None if target is None else set(target))
-    work.run()
+    work.run(based)
     return work.reduced()
 
 
@@ -50,10 +53,13 @@ class _Work:
         self.leading: dict[int, Monomial] = {}
         self.pairs: list[tuple[int, int, Monomial]] = []
 
-    def run(self) -> None:
+    def run(self, based: int) -> None:
         """All pairs, those with the smallest least common multiple first, until none is left."""
         waiting = sorted((k for k in range(self.given) if self.pool[k]), key=lambda k: _size(self._lead(k)))
-        for k in waiting:
+        for k in (k for k in waiting if k < based):
+            if not any(_divides(m, self._lead(k)) for m in self.leading.values()):
+                self.leading[k] = self._lead(k)
+        for k in (k for k in waiting if k >= based):
             self._reduce([k])
         while self.pairs and not self._reached():
             self.budget.check("a Groebner basis for a certificate")
