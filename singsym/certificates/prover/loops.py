@@ -113,8 +113,12 @@ def _critical(
         found = local * determinant([[e.derivative(i) for i in others] for e in square], [])
         if remainder(found, at.equations):
             factors = found.factor()
-            number = sum(_zeros(at.within([part])) for part, _ in factors[1])
-            if best is None or number < best[0]:
+            number = 0.0
+            for part, _ in factors[1]:
+                number += _zeros(at.within([part]))
+                if best is not None and number >= best[0]:
+                    break
+            else:
                 best = number, own, factors
     if best is None or best[0] == math.inf:
         return None, []
