@@ -38,7 +38,7 @@ CORRECTIONS, EXACT = 8, 1e-9
 SHORTER = 0.3
 OVERLAP = 0.08
 """Tubes go on beyond both ends by this part of their length."""
-WIDTHS = (4.0, 8.0)
+WIDTHS = (8.0, 16.0)
 """Radii that are tried, as multiples of how far the curve is from the line."""
 NARROWEST = 1e-6
 
