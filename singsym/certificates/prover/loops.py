@@ -6,7 +6,6 @@ what they find proves nothing, the checker's tubes do.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -30,8 +29,8 @@ Based = Callable[[RealSet, int], tuple[RealSet, dict[str, Any]]]
 """The set with a Groebner basis of its equations, of which so many first ones may hold one, and the steps."""
 
 FIRST_STEP, LEAST_STEP, LARGEST_STEP = 0.2, 1e-4, 0.5
-COUNTED = 20.0
-"""Seconds of work in which the critical points of a coordinate are to be counted."""
+FINITE = 20.0
+"""Seconds of work in which critical points are to be seen to be finitely many."""
 MOST_TUBES = 4000
 CORRECTIONS, EXACT = 8, 1e-9
 """Newton's method ends after so many steps, or with one so short that the next would be of rounding only."""
@@ -105,24 +104,23 @@ def _is_definite(f: fmpq_mpoly, own: Sequence[int]) -> bool:
 def _critical(
     at: RealSet, square: Sequence[fmpq_mpoly], local: fmpq_mpoly, based: Based
 ) -> tuple[dict[str, Any] | None, list[Any]]:
-    """Critical points of the coordinate that has the fewest, and balls around the real ones."""
-    best: tuple[float, int, Any] | None = None
+    """Critical points of a coordinate that has finitely many, and balls around the real ones.
+
+    Short determinants are tried first: they have few zeros.
+    """
+    ways = []
     for own in reversed(range(len(at.variables))):
         others = [i for i in range(len(at.variables)) if i != own]
         # not reduced, as it comes apart into factors then
         found = local * determinant([[e.derivative(i) for i in others] for e in square], [])
         if remainder(found, at.equations):
-            factors = found.factor()
-            number = 0.0
-            for part, _ in factors[1]:
-                number += _zeros(at.within([part]))
-                if best is not None and number >= best[0]:
-                    break
-            else:
-                best = number, own, factors
-    if best is None or best[0] == math.inf:
+            ways.append((own, found))
+    shortest = sorted(ways, key=lambda way: len(way[1]))
+    finite = (way for way in shortest if all(_is_finite(at.within([f])) for f, _ in way[1].factor()[1]))
+    best = next(finite, None)
+    if best is None:
         return None, []
-    _, own, (scale, parts) = best
+    own, (scale, parts) = best[0], best[1].factor()
     entries = []
     balls: list[Any] = []
     for part, multiplicity in sorted(parts, key=lambda pair: len(pair[0])):
@@ -137,13 +135,12 @@ def _critical(
     return {"variable": at.variables[own], "scale": str(scale), "factors": entries}, balls
 
 
-def _zeros(at: RealSet) -> float:
-    """How many complex zeros the equations have, with multiplicities."""
+def _is_finite(at: RealSet) -> bool:
+    """Whether the equations are seen to have finitely many complex zeros, or none."""
     own = Ring(at.variables)
-    ideal = Ideal(own, [Polynomial(own, e) for e in at.equations if e])
-    with attempt("the number of critical points", COUNTED):
-        return ideal.vector_space_dimension.value if ideal.dimension.value <= 0 else math.inf
-    return math.inf
+    with attempt("whether critical points are finitely many", FINITE):
+        return Ideal(own, [Polynomial(own, e) for e in at.equations if e]).dimension.value <= 0
+    return False
 
 
 class _Tracker:
