@@ -190,6 +190,20 @@ def test_a_point_of_a_square_system_that_is_none_of_the_set() -> None:
             dimension_below(whole("x^2 + y^2 - 1", "x - y"), point | implied)
 
 
+def test_a_square_system_of_all_generators_has_the_ideal_of_the_set() -> None:
+    """Of x^2 + y^2 = 1 and x = y follows 2 y^2 = 1; their points are (t, t) with t^2 = 1/2, about 0.70711.
+
+    Both generators tell all of the set, while of one and the third equation it has to be shown.
+    """
+    (at,) = derive(whole("x^2 + y^2 - 1", "x - y"), {"steps": [[[0, 1], [1]]], "equations": [0, 1, 2]})
+    assert [str(e) for e in at.equations] == ["x^2 + y^2 - 1", "x - y", "2*y^2 - 1"]
+    about_half = {"x": "70711/100000", "y": "70711/100000"}
+    point = {"fixed": {}, "centre": about_half, "radius": "1/1000", "square": [0, 1]}
+    assert dimension_below(at, point) == 0
+    with pytest.raises(Rejected):
+        dimension_below(at, point | {"square": [1, 2]})
+
+
 def test_a_tube_holds_one_arc() -> None:
     """Over x from -1/10 to 1/10 the circle is within 1/100 of y = 1, not over all of x, nor at y = 1/2."""
     unit = 10**9
