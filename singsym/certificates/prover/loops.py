@@ -6,18 +6,19 @@ what they find proves nothing, the checker's tubes do.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy
 from flint import ctx, fmpq_mpoly
 from numpy.typing import NDArray
 
-from singsym.certificates.checker.curves import BITS, ROOT_BITS, UNIT, Tube, Tubes, square_system
-from singsym.certificates.checker.points import chart_of, real_points
+from singsym.certificates.checker.curves import BITS, UNIT, Tube, Tubes, real_points, square_system
 from singsym.certificates.checker.polynomials import Rejected, determinant, remainder
 from singsym.certificates.checker.sets import RealSet
+from singsym.certificates.prover.boxes import by_length, implied_by, independent
 from singsym.certificates.prover.finite import points_leaf
+from singsym.effort import chance
 from singsym.effort.budget import Undecided, current
 from singsym.polynomials import Polynomial, Ring
 from singsym.polynomials.compiled_map import CompiledMap
@@ -28,6 +29,8 @@ Based = Callable[[RealSet], tuple[RealSet, dict[str, Any]]]
 
 FIRST_STEP, LEAST_STEP, LARGEST_STEP = 0.2, 1e-4, 0.5
 MOST_TUBES = 4000
+MOST_SYSTEMS, NEWTON_STEPS = 4, 40
+"""So many square systems are tried for one curve."""
 SHORTER = 0.3
 OVERLAP = 0.08
 """Tubes go on beyond both ends by this part of their length."""
@@ -36,21 +39,65 @@ WIDTHS = (4.0, 8.0)
 NARROWEST = 1e-6
 
 
-def curve_leaf(at: RealSet, point: dict[str, Any], based: Based) -> dict[str, Any] | None:
+def curve_leaf(at: RealSet, point: Mapping[str, Any], based: Based) -> dict[str, Any] | None:
     """`bounded`, `critical` and `loops` of a curve; None where it is not one that the checker counts.
 
-    point: as the leaf has it.  Raises `Undecided` where arcs are not closed in time.
+    point: as the leaf has it; empty where none is known, then the curve has no loops.  Raises `Undecided`
+    where arcs are not closed in time.
     """
-    own, local = square_system(at, point)
-    if len(own) != len(at.variables) - 1 or at.positive or at.nonnegative:
-        return None
     bounded = _bounded(at)
-    if bounded is None:
+    if bounded is None or at.positive or at.nonnegative:
         return None
-    critical, points = _critical(at, own, local, based)
-    if critical is None:
+    data = dict(point) or _some_square(at)
+    if not data and len(at.generators) != len(at.variables) - 1:
         return None
-    tracker = _Tracker(own, at)
+    for _ in range(MOST_SYSTEMS):
+        own, local = square_system(at, data)
+        critical, points = (
+            _critical(at, own, local, based) if len(own) == len(at.variables) - 1 else (None, [])
+        )
+        if critical is None:
+            return None
+        if points and not point:
+            return None
+        starts = [[float(x.mid()) for x in root] for root in points]
+        tracker = _Tracker(own, at)
+        bad = next((start for start in starts if tracker.is_singular(start)), None)
+        if bad is None:
+            more = {key: data[key] for key in ("square", "implied") if data.get(key) != point.get(key)}
+            return {"bounded": bounded, "critical": critical, "loops": _loops(tracker, points), **more}
+        # another square system, that is regular there
+        rows, _ = independent(at, bad, by_length(at.equations))
+        implied = implied_by(at, rows, bad) if len(rows) == len(own) else None
+        if implied is None:
+            return None
+        data |= {"square": rows, "implied": implied}
+    return None
+
+
+def _some_square(at: RealSet) -> dict[str, Any]:
+    """A square system of a set of which no real point is known: equations independent at a complex one."""
+    near = _complex_point(at)
+    rows = independent(at, near, by_length(at.equations))[0]
+    implied = implied_by(at, rows, near) if len(rows) == len(at.variables) - 1 else None
+    return {} if implied is None else {"square": rows, "implied": implied}
+
+
+def _complex_point(at: RealSet) -> list[complex]:
+    """Numbers near a complex zero of the equations, by Newton's method from random ones."""
+    ring, draw = Ring(at.variables), chance.random("a complex point", *at.variables)
+    equations = [Polynomial(ring, e) for e in at.equations if e]
+    slopes = [[e.derivative(name) for name in at.variables] for e in equations]
+    x = numpy.array([complex(draw.uniform(-1, 1), draw.uniform(-1, 1)) for _ in at.variables])
+    for _ in range(NEWTON_STEPS):
+        values = numpy.array([complex(e.evaluate(list(x))) for e in equations])
+        matrix = numpy.array([[complex(slope.evaluate(list(x))) for slope in row] for row in slopes])
+        x = x - numpy.linalg.lstsq(matrix, values, rcond=1e-9)[0]
+    return [complex(value) for value in x]
+
+
+def _loops(tracker: _Tracker, points: Sequence[Sequence[Any]]) -> list[list[Any]]:
+    """The components through some points, balls, each once."""
     loops: list[list[Any]] = []
     with ctx.workprec(BITS):
         known: list[Tube] = []
@@ -60,7 +107,7 @@ def curve_leaf(at: RealSet, point: dict[str, Any], based: Based) -> dict[str, An
             entries, tubes = tracker.loop(numpy.array([float(x.mid()) for x in root]))
             loops.append(entries)
             known += tubes
-    return {"bounded": bounded, "critical": critical, "loops": loops}
+    return loops
 
 
 def _bounded(at: RealSet) -> list[list[Any]] | None:
@@ -108,20 +155,23 @@ def _critical(
         entries = []
         balls: list[Any] = []
         for part, multiplicity in sorted(found.factor()[1], key=lambda pair: len(pair[0])):
-            there, steps = based(at.within([part]))
-            entry = {"polynomial": str(part), "multiplicity": int(multiplicity), **steps}
-            if not any(e.is_constant() for e in there.equations if e):
-                if not _is_finite(there):
-                    break
-                entry |= points_leaf(there)
-                _, minimal, coordinates = chart_of(there, entry)
-                with ctx.workprec(ROOT_BITS):
-                    balls += real_points(minimal, [coordinates[n] for n in at.variables])
-            entries.append(entry)
+            there = at.within([part])
+            if (zeros := all_zeros(there, based)) is None:
+                break
+            entries.append({"polynomial": str(part), "multiplicity": int(multiplicity), **zeros})
+            balls += real_points(there, zeros)
         else:
             scale = found.factor()[0]
             return {"variable": at.variables[own], "scale": str(scale), "factors": entries}, balls
     return None, []
+
+
+def all_zeros(at: RealSet, based: Based) -> dict[str, Any] | None:
+    """Steps to a basis of the equations of a set, and a chart of its zeros where these are finitely many."""
+    there, steps = based(at)
+    if any(e.is_constant() for e in there.equations if e):
+        return steps
+    return steps | points_leaf(there) if _is_finite(there) else None
 
 
 def _is_finite(at: RealSet) -> bool:
@@ -137,6 +187,11 @@ class _Tracker:
         self.map = CompiledMap([Polynomial(ring, e) for e in equations], ring)
         self.tubes = Tubes(equations)
         self.size = len(at.variables)
+
+    def is_singular(self, x: Sequence[float]) -> bool:
+        """Whether the gradients are dependent at a point, up to rounding."""
+        sizes = numpy.linalg.svd(self.map.jacobian(numpy.array(x)), compute_uv=False)
+        return bool(sizes[-1] < 1e-9 * sizes[0])
 
     def loop(self, start: Floats) -> tuple[list[Any], list[Tube]]:
         """The tubes of the component through a point; raises `Undecided`."""
