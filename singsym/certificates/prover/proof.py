@@ -55,10 +55,10 @@ class Hints:
     curves: bool = False
 
 
-def prove(about: Statement, hints: Hints) -> list[dict[str, Any]]:
-    """The lines of a proof; parts on which none is found are left open, with the reason."""
+def prove(about: Statement, hints: Hints, seconds: float = WHOLE) -> list[dict[str, Any]]:
+    """The lines of a proof; parts on which none is found in so much work are left open, with the reason."""
     prover = _Prover(Tree(about), hints)
-    prover.attempted(lambda: prover.take_apart(prover.reduced(prover.tree.root), hints.loci), WHOLE)
+    prover.attempted(lambda: prover.take_apart(prover.reduced(prover.tree.root), hints.loci), seconds)
     closed = {line["at"] for line in prover.tree.lines}
     why = "; ".join(dict.fromkeys(map(str, prover.failures)))
     left = [number for number in range(prover.tree.numbers + 1) if number not in closed]
