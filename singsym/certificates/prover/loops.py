@@ -29,8 +29,11 @@ Based = Callable[[RealSet], tuple[RealSet, dict[str, Any]]]
 
 FIRST_STEP, LEAST_STEP, LARGEST_STEP = 0.2, 1e-4, 0.5
 MOST_TUBES = 4000
-MOST_SYSTEMS, NEWTON_STEPS = 4, 40
-"""So many square systems are tried for one curve."""
+MOST_SYSTEMS, MOST_POINTS = 4, 12
+"""So many square systems are tried for one curve, each looked at in so many points."""
+BETTER = 1.2
+"""An equation is exchanged for one with which gradients are so much more independent."""
+NEWTON_STEPS = 40
 SHORTER = 0.3
 OVERLAP = 0.08
 """Tubes go on beyond both ends by this part of their length."""
@@ -51,6 +54,7 @@ def curve_leaf(at: RealSet, point: Mapping[str, Any], based: Based) -> dict[str,
     data = dict(point) or _some_square(at)
     if not data and len(at.generators) != len(at.variables) - 1:
         return None
+    seen: list[list[float]] = []
     for _ in range(MOST_SYSTEMS):
         own, local = square_system(at, data)
         critical, points = (
@@ -67,12 +71,42 @@ def curve_leaf(at: RealSet, point: Mapping[str, Any], based: Based) -> dict[str,
             more = {key: data[key] for key in ("square", "implied") if data.get(key) != point.get(key)}
             return {"bounded": bounded, "critical": critical, "loops": _loops(tracker, points), **more}
         # another square system, that is regular there
-        rows, _ = independent(at, bad, by_length(at.equations))
-        implied = implied_by(at, rows, bad) if len(rows) == len(own) else None
+        seen = [bad, *seen, *starts[:MOST_POINTS]]
+        rows = _regular_rows(at, seen)
+        implied = None if rows is None else implied_by(at, rows, bad)
         if implied is None:
             return None
         data |= {"square": rows, "implied": implied}
     return None
+
+
+def _regular_rows(at: RealSet, points: Sequence[Sequence[float]]) -> list[int] | None:
+    """Places of equations, one less than variables, with gradients as independent at points as can be.
+
+    None where those of all equations are dependent at the first point.
+    """
+    rows = independent(at, points[0], by_length(at.equations))[0]
+    if len(rows) < len(at.variables) - 1:
+        return None
+    ring = Ring(at.variables)
+    slopes = CompiledMap([Polynomial(ring, e) for e in at.equations], ring)
+    matrices = numpy.array([slopes.jacobian(numpy.array(point)) for point in points])
+    sizes = numpy.linalg.norm(matrices, axis=2, keepdims=True)
+    matrices = matrices / numpy.where(sizes > 0, sizes, 1.0)
+
+    def least(own: list[int]) -> float:
+        return float(numpy.linalg.svd(matrices[:, own, :], compute_uv=False)[:, -1].min())
+
+    best, found = -1.0, rows
+    while found is not None:
+        current().check("a square system of a curve")
+        rows, best = found, max(best, least(found))
+        others = [k for k in range(len(at.equations)) if k not in rows]
+        exchanged = [[*rows[:i], k, *rows[i + 1 :]] for i in range(len(rows)) for k in others]
+        found = max(exchanged, key=least, default=None)
+        if found is not None and least(found) < BETTER * best:
+            found = None
+    return rows
 
 
 def _some_square(at: RealSet) -> dict[str, Any]:
