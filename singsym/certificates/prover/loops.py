@@ -97,16 +97,15 @@ def _regular_rows(at: RealSet, points: Sequence[Sequence[float]]) -> list[int] |
     def least(own: list[int]) -> float:
         return float(numpy.linalg.svd(matrices[:, own, :], compute_uv=False)[:, -1].min())
 
-    best, found = -1.0, rows
-    while found is not None:
+    best = least(rows)
+    while True:
         current().check("a square system of a curve")
-        rows, best = found, max(best, least(found))
         others = [k for k in range(len(at.equations)) if k not in rows]
         exchanged = [[*rows[:i], k, *rows[i + 1 :]] for i in range(len(rows)) for k in others]
-        found = max(exchanged, key=least, default=None)
-        if found is not None and least(found) < BETTER * best:
-            found = None
-    return rows
+        found = max(exchanged, key=least, default=rows)
+        if least(found) <= BETTER * best:
+            return rows
+        rows, best = found, least(found)
 
 
 def _some_square(at: RealSet) -> dict[str, Any]:
