@@ -30,8 +30,8 @@ STEPS = 12
 MOST_LOCALS, MOST_TERMS = 5, 200
 DIGITS = 30
 RADIUS = Fraction(1, 10**20)
-FOLLOWS = 20.0
-"""Seconds of work in which the other equations are to follow from the square system."""
+FOLLOWS, QUOTIENT = 20.0, 5.0
+"""Seconds of work in which the other equations are to follow from the square system, and to find where."""
 
 
 def point_leaf(at: RealSet, near: Sequence[Sequence[float]]) -> tuple[dict[str, Any], int] | None:
@@ -197,7 +197,7 @@ def _locals(at: RealSet, rows: Sequence[int]) -> Iterator[fmpq_mpoly]:
         yield units
     ring = Ring(at.variables)
     everything = Ideal(ring, [Polynomial(ring, e) for e in at.equations if e])
-    with attempt("a quotient of ideals", FOLLOWS):
+    with attempt("a quotient of ideals", QUOTIENT):
         square = Ideal(ring, [Polynomial(ring, at.equations[k]) for k in rows])
         found = square.quotient(everything).value.groebner_basis().value
         yield from sorted((f.value for f in found), key=_length)

@@ -148,6 +148,8 @@ class _Prover:
         node = self._based(node)
         if self._is_empty(node):
             return
+        if _most_minors(node.at) > MOST_MINORS:
+            node = self.reduced(node)
         at, evidence = node.at, dict[str, list[dict[str, Any]]]()
         for name, exact in _questions(at, self.tree.about):
             if len(self._types(at, evidence)) == 1:
@@ -314,6 +316,12 @@ def _blocks(
             yield list(own), list(columns), [[rows[i][j] for j in columns] for i in own]
 
 
+def _most_minors(at: RealSet) -> int:
+    """How many minors of one size the matrix of a set has at most."""
+    rows, width = len(at.matrix), len(at.roles)
+    return max((comb(rows, size) * comb(width, size) for size in range(1, min(rows, width) + 1)), default=0)
+
+
 def _pivot(at: RealSet) -> dict[str, Any] | None:
     """The pivot in a passive column that leaves the fewest entries, constants first."""
     best: tuple[tuple[int, ...], dict[str, Any]] | None = None
@@ -321,7 +329,7 @@ def _pivot(at: RealSet) -> dict[str, Any] | None:
         below = [i for i, row in enumerate(at.matrix) if row[j]]
         for i in below:
             row = at.matrix[i]
-            entry = row[j]
+            entry = remainder(row[j], at.equations)
             cost = (len(below) - 1) * (sum(map(bool, row)) - 1)
             key = (int(not entry.is_constant()), cost, sum(map(len, row)))
             if (best is None or key < best[0]) and (form := product_of_units(entry, at)) is not None:
