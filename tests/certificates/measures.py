@@ -12,7 +12,6 @@ from pathlib import Path
 from singsym.certificates.checker.verification import Verification, verify
 from singsym.certificates.prover.writing import certificate
 from singsym.classes.classify import Limits, classify
-from singsym.effort.budget import Budget
 from singsym.effort.processor_time import worked
 from singsym.mechanism import load
 
@@ -40,8 +39,8 @@ def measure(name: str, seconds: float) -> Measured:
     begun = worked()
     result = classify(load(name), limits=Limits(seconds=seconds / 6, total=seconds), cache=False)
     classified = worked()
-    with tempfile.TemporaryDirectory() as folder, Budget(work=seconds):
-        path = certificate(result).write(Path(folder) / name)
+    with tempfile.TemporaryDirectory() as folder:
+        path = certificate(result, seconds).write(Path(folder) / name)
         proven = worked()
         found = verify(path)
         return Measured(

@@ -39,6 +39,11 @@ class Tree:
         """The whole configuration space."""
         return Node(0, self.about.whole)
 
+    @property
+    def next_line(self) -> int:
+        """The number in the file of the next line, after header and statement."""
+        return len(self.lines) + 3
+
     def apply(self, node: Node, rule: str, **data: Any) -> tuple[Node, ...]:
         """A set taken apart by a rule; raises `checker.polynomials.Rejected` where the checker would."""
         parts = RULES[rule](node.at, data)
