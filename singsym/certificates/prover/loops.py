@@ -7,6 +7,8 @@ what they find proves nothing, the checker's tubes do.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from functools import partial
 from typing import Any
 
 import numpy
@@ -43,7 +45,7 @@ NEWTON_STEPS = 40
 SHORTER = 0.3
 OVERLAP = 0.08
 """Tubes go on beyond both ends by this part of their length."""
-WIDTHS = (8.0, 16.0)
+WIDTHS = (8.0, 4.0, 16.0)
 """Radii that are tried, as multiples of how far the curve is from the line."""
 NARROWEST = 1e-6
 
@@ -259,8 +261,8 @@ class _Tracker:
             near = ahead @ direction > 0 and numpy.linalg.norm(ahead) < 1.5 * step
             closing = bool(len(tubes) > 1 and near and direction @ first > 0.5)
             y = start if closing else self._corrected(x + step * direction, direction)
-            made = self._tube(x, y, direction)
-            if made is None or not self._joined(tubes, made[1], closing):
+            made = self._tube(x, y, partial(self._joined, tubes, closing))
+            if made is None:
                 step /= 2
                 if before and step < SHORTER * before[-1][2]:
                     # a tube so much shorter does not reach over the overlap: the last one is made anew
@@ -280,7 +282,7 @@ class _Tracker:
         raise Undecided(f"a curve takes more than {MOST_TUBES} tubes")
 
     @staticmethod
-    def _joined(before: Sequence[Tube], new: Tube, closing: bool) -> bool:
+    def _joined(before: Sequence[Tube], closing: bool, new: Tube) -> bool:
         """Whether the last tube leads into a new one, and that into the first where it closes the loop."""
         neighbours = [(before[-1], new)] if before else []
         neighbours += [(new, before[0])] if closing else []
@@ -303,8 +305,8 @@ class _Tracker:
                 break
         return x
 
-    def _tube(self, x: Floats, y: Floats, direction: Floats) -> tuple[Any, Tube] | None:
-        """A tube from one point to the next, over the coordinate that changes most, if it is proven."""
+    def _tube(self, x: Floats, y: Floats, fits: Callable[[Tube], bool]) -> tuple[Any, Tube] | None:
+        """A tube between two points, over the coordinate that changes most, if one is proven and fits."""
         secant = y - x
         along = int(numpy.argmax(numpy.abs(secant)))
         if not abs(secant[along]) > 1e-7:
@@ -316,10 +318,10 @@ class _Tracker:
         for width in WIDTHS:
             radius = max(width * away, NARROWEST)
             entry = [along, _whole(first), _whole(last), _wholes(base), _wholes(slope), _whole(radius)]
-            try:
-                return entry, self.tubes.tube(entry)
-            except Rejected:
-                continue
+            with suppress(Rejected):
+                made = self.tubes.tube(entry)
+                if fits(made):
+                    return entry, made
         return None
 
     def _away(self, x: Floats, slope: Floats, along: int, t: float) -> float:
