@@ -41,6 +41,10 @@ PART, WHOLE, EMPTY = 60.0, 600.0, 5.0
 MOST_MINORS = 400
 
 
+class _TooManyMinors(Undecided):
+    """Minors of one size are not all looked at."""
+
+
 @dataclass(frozen=True)
 class Hints:
     """What is known beforehand, none of it as a proof.
@@ -165,13 +169,18 @@ class _Prover:
 
     def _ranked_on_basis(self, node: Node) -> None:
         """The same of a set with points, with a Groebner basis among its equations."""
-        if _most_minors(node.at) > MOST_MINORS:
-            node = self.reduced(node)
         at, evidence = node.at, dict[str, list[dict[str, Any]]]()
         for name, exact in _questions(at, self.tree.about):
             if len(self._types(at, evidence)) == 1:
                 break
-            found = self._rank(at, name, exact)
+            try:
+                found = self._rank(at, name, exact)
+            except _TooManyMinors:
+                # a smaller matrix has fewer, by pivots among the units
+                if (less := self.reduced(node)) is node:
+                    raise
+                self._ranked_on_basis(less)
+                return
             if isinstance(found, dict):
                 evidence.setdefault(name, []).append(found)
             else:
@@ -340,19 +349,13 @@ def _questions(at: RealSet, about: Statement) -> Iterator[tuple[str, bool]]:
 def _blocks(
     rows: Sequence[Sequence[fmpq_mpoly]], size: int
 ) -> Iterator[tuple[list[int], list[int], list[list[fmpq_mpoly]]]]:
-    """The square blocks of a size, with their rows and columns; raises `Undecided` where there are many."""
+    """The square blocks of a size, with their rows and columns; raises `_TooManyMinors`."""
     width = len(rows[0]) if rows else 0
     if comb(len(rows), size) * comb(width, size) > MOST_MINORS:
-        raise Undecided(f"a matrix has more than {MOST_MINORS} minors of size {size}")
+        raise _TooManyMinors(f"a matrix has more than {MOST_MINORS} minors of size {size}")
     for own in combinations(range(len(rows)), size):
         for columns in combinations(range(width), size):
             yield list(own), list(columns), [[rows[i][j] for j in columns] for i in own]
-
-
-def _most_minors(at: RealSet) -> int:
-    """How many minors of one size the matrix of a set has at most."""
-    rows, width = len(at.matrix), len(at.roles)
-    return max((comb(rows, size) * comb(width, size) for size in range(1, min(rows, width) + 1)), default=0)
 
 
 def _pivot(at: RealSet) -> dict[str, Any] | None:
