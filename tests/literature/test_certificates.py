@@ -18,6 +18,7 @@ from singsym.mechanism import Mechanism, load
 pytestmark = pytest.mark.engines
 QUICK = (
     "2r",
+    "7r-locked",
     "atkinson-engine",
     "bennett",
     "cardan",
@@ -56,6 +57,7 @@ QUICK = (
     "spherical-fourbar",
     "stanford",
     "toggle-press",
+    "ur5",
     "watt-six-bar",
     "whitworth",
     "wrist-offset",
