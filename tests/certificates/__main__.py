@@ -17,7 +17,7 @@ from pathlib import Path
 from singsym.certificates.prover.writing import certificate
 from singsym.classes.classify import classify
 from singsym.mechanism import library, load
-from tests.certificates.measures import measure
+from tests.certificates.measures import HEAD, measure
 from tests.certificates.trials import NAMES, Trial, tally, trials
 from tests.laws.draws import draw
 
@@ -41,17 +41,15 @@ def damage(names: Sequence[str], count: int) -> int:
 
 
 def main(names: Sequence[str], seconds: float) -> None:
-    """A line for each mechanism, in a process of its own, and what is not proven of it."""
+    """A table with a row for each mechanism, in a process of its own, and what is not proven of it."""
     full = 0
-    print(f"{'mechanism':26} {'table':8} {'rows':7} {'kB':>8} {'finding':>8} {'proving':>8} {'verifying':>9}")
+    print("\n".join(HEAD), flush=True)
     for name in names:
         with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as process:
             measured = process.submit(measure, name, seconds).result()
-        full += measured.found.complete
+        full += not measured.missing
         print(measured.line(name), flush=True)
-        for what in measured.found.missing:
-            print(f"    {what}")
-    print(f"{full} of {len(names)} in full")
+    print(f"\n{full} of {len(names)} in full")
 
 
 if __name__ == "__main__":

@@ -9,19 +9,30 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from singsym.certificates.checker.verification import Verification, verify
+from singsym.certificates.checker.verification import verify
 from singsym.certificates.prover.writing import certificate
 from singsym.classes.classify import Limits, classify
-from singsym.effort.budget import Budget
 from singsym.effort.processor_time import worked
 from singsym.mechanism import load
+
+MOST_SAID = 3
+"""So many of the things that are not proven are printed."""
+HEAD = (
+    "| mechanism | table | rows proven | kB | finding | proving | verifying | not proven |",
+    "|---|---|---|---|---|---|---|---|",
+)
 
 
 @dataclass(frozen=True)
 class Measured:
-    """A certificate's size in bytes, and the seconds to find, to prove and to verify the table."""
+    """What a certificate proves, its bytes, and the seconds to find, to prove and to verify the table.
 
-    found: Verification
+    rows: how many there are; proven: of how many it is known whether they occur; missing: what is not proven.
+    """
+
+    rows: int
+    proven: int
+    missing: tuple[str, ...]
     size: int
     finding: float
     proving: float
@@ -29,10 +40,11 @@ class Measured:
 
     def line(self, name: str) -> str:
         """A row of the printed table."""
-        word = "full" if self.found.complete else "in part"
-        proven = sum(row.occurs is not None for row in self.found.proven)
-        seconds = f"{self.finding:8.2f} {self.proving:8.2f} {self.verifying:9.2f}"
-        return f"{name:26} {word:8} {proven:3}/{len(self.found.proven):<3} {self.size / 1000:8.1f} {seconds}"
+        word = "in part" if self.missing else "full"
+        seconds = f"{self.finding:.1f} | {self.proving:.1f} | {self.verifying:.2f}"
+        missing = "; ".join(self.missing[:MOST_SAID]) + ("; ..." if len(self.missing) > MOST_SAID else "")
+        size = f"{self.size / 1000:.1f}"
+        return f"| {name} | {word} | {self.proven}/{self.rows} | {size} | {seconds} | {missing} |"
 
 
 def measure(name: str, seconds: float) -> Measured:
@@ -40,10 +52,10 @@ def measure(name: str, seconds: float) -> Measured:
     begun = worked()
     result = classify(load(name), limits=Limits(seconds=seconds / 6, total=seconds), cache=False)
     classified = worked()
-    with tempfile.TemporaryDirectory() as folder, Budget(work=seconds):
-        path = certificate(result).write(Path(folder) / name)
+    with tempfile.TemporaryDirectory() as folder:
+        path = certificate(result, seconds).write(Path(folder) / name)
         proven = worked()
         found = verify(path)
-        return Measured(
-            found, path.stat().st_size, classified - begun, proven - classified, worked() - proven
-        )
+        seen = sum(row.occurs is not None for row in found.proven)
+        seconds_of = classified - begun, proven - classified, worked() - proven
+        return Measured(len(found.proven), seen, found.missing, path.stat().st_size, *seconds_of)

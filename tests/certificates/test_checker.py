@@ -190,6 +190,20 @@ def test_a_point_of_a_square_system_that_is_none_of_the_set() -> None:
             dimension_below(whole("x^2 + y^2 - 1", "x - y"), point | implied)
 
 
+def test_a_square_system_of_all_generators_has_the_ideal_of_the_set() -> None:
+    """Of x^2 + y^2 = 1 and x = y follows 2 y^2 = 1; their points are (t, t) with t^2 = 1/2, about 0.70711.
+
+    Both generators tell all of the set, while of one and the third equation it has to be shown.
+    """
+    (at,) = derive(whole("x^2 + y^2 - 1", "x - y"), {"steps": [[[0, 1], [1]]], "equations": [0, 1, 2]})
+    assert [str(e) for e in at.equations] == ["x^2 + y^2 - 1", "x - y", "2*y^2 - 1"]
+    about_half = {"x": "70711/100000", "y": "70711/100000"}
+    point = {"fixed": {}, "centre": about_half, "radius": "1/1000", "square": [0, 1]}
+    assert dimension_below(at, point) == 0
+    with pytest.raises(Rejected):
+        dimension_below(at, point | {"square": [1, 2]})
+
+
 def test_a_tube_holds_one_arc() -> None:
     """Over x from -1/10 to 1/10 the circle is within 1/100 of y = 1, not over all of x, nor at y = 1/2."""
     unit = 10**9
@@ -213,11 +227,11 @@ def test_a_curve_of_more_equations_than_it_needs() -> None:
     """
     at, point = whole("x^2 + y^2 - 1", "x^3 + x*y^2 - x"), _square(0)
     leaf = curve_leaf(at, point, based)
-    assert components(at, leaf, point) == 1
+    assert len(components(at, {**point, **leaf})) == 1
     with pytest.raises(Rejected):
-        components(at, leaf, _square(1))
-    with pytest.raises(Rejected, match="equation 1 is not seen"):
-        components(whole("x^2 + y^2 - 1", "x - y"), leaf, point)
+        components(at, {**_square(1), **leaf})
+    with pytest.raises(Rejected, match="a generator is not seen"):
+        components(whole("x^2 + y^2 - 1", "x - y"), {**point, **leaf})
 
 
 def _square(place: int) -> dict[str, Any]:

@@ -17,7 +17,10 @@ from singsym.certificates.checker.verification import verify
 from singsym.certificates.prover.writing import Certificate
 from tests.certificates.damage import Damage, damaged
 
-NAMES = ("fourbar", "slider-crank", "2r", "orthogonal-3r", "wrist-offset", "parallelogram", "pantograph")
+NAMES = (
+    *("fourbar", "slider-crank", "2r", "orthogonal-3r"),
+    *("wrist-offset", "parallelogram", "pantograph", "pentagon"),
+)
 """Mechanisms of the library with small certificates, which use each rule."""
 OUTCOMES = ("rejected", "weaker", "same", "FALSE")
 
@@ -33,7 +36,7 @@ class Trial:
 
 def says_no_more(row: Row, true: Row) -> bool:
     """Whether all that a row knows is what the true one knows."""
-    keys = ("occurs", "dimension", "points", "components")
+    keys = ("occurs", "dimension", "points", "components", "together")
     pairs = [(getattr(row, key), getattr(true, key)) for key in keys]
     return all(known is None or known == right for known, right in pairs)
 
@@ -51,7 +54,7 @@ def trials(whole: Certificate, count: int, random: Random, folder: Path) -> list
 
 
 def _joined(row: Row, other: Row) -> Row:
-    keys = ("occurs", "dimension", "points", "components")
+    keys = ("occurs", "dimension", "points", "components", "together")
     known = [(getattr(row, key), getattr(other, key)) for key in keys]
     return Row(row.types, *(b if a is None else a for a, b in known))
 

@@ -10,45 +10,42 @@ the first, has a union that is compact, and open in the curve: a component of it
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from flint import arb, arb_mat, arb_poly, ctx, fmpq, fmpq_mat, fmpq_mpoly
 
-from singsym.certificates.checker.balls import Compiled, is_off_zero, preconditioned
-from singsym.certificates.checker.points import chart_of, check_all, real_points
+from singsym.certificates.checker.balls import Compiled, horner, is_off_zero, preconditioned
+from singsym.certificates.checker.points import chart_of
 from singsym.certificates.checker.polynomials import Rejected, determinant, polynomial, rational, remainder
-from singsym.certificates.checker.rules import derive
-from singsym.certificates.checker.sets import RealSet, chosen, listed, power
+from singsym.certificates.checker.rules import Line, derive
+from singsym.certificates.checker.sets import RealSet, chosen, listed, named, power
 from singsym.certificates.checker.strata import implied
 
 BITS, ROOT_BITS = 90, 512
+Boxes = list[list[arb]]
 UNIT = 10**9
 """Numbers of tubes are whole multiples of one over this."""
 
 
-def components(at: RealSet, data: Any, point: Mapping[str, Any]) -> int:
-    """The number of components of a curve, the zeros of the equations of a set; raises `Rejected`.
+def components(at: RealSet, data: Line) -> Loops:
+    """The components of a curve, the zeros of the equations of a set, in tubes; raises `Rejected`.
 
-    The set has no inequalities, and one generator less than variables; or else the square system of its
-    `point` is taken, see `strata.implied`.  bounded: see `_check_bounded`; critical: see `_critical_points`;
+    The set has no inequalities, and one generator less than variables; or else there is a `square` system,
+    see `strata.implied`.  bounded: see `_check_bounded`; critical: see `_critical_points`;
     loops: chains of tubes, see `Tubes.tube`.  Each critical point lies in a tube, and each loop has a point
     that is in the set, so that the loop is its closure.
     """
-    if not isinstance(data, Mapping):
-        raise Rejected("a curve: expected bounded, critical and loops")
-    own, local = square_system(at, point)
-    if len(own) != len(at.variables) - 1:
-        raise Rejected("a curve: expected one equation less than variables")
-    if at.positive or at.nonnegative:
-        raise Rejected("a curve: its components are not counted within inequalities")
+    own, local = square_system(at, data)
+    if len(own) != len(at.variables) - 1 or at.positive or at.nonnegative:
+        raise Rejected("a curve: expected one equation less than variables, and no inequalities")
     _check_bounded(at, listed(data, "bounded", list))
     system = Tubes(own)
     with ctx.workprec(BITS):
         loops = [[system.tube(entry) for entry in loop] for loop in listed(data, "loops", list)]
         for k, loop in enumerate(loops):
-            for one, two in zip(loop, (*loop[1:], loop[0]), strict=True):
+            for one, two in zip(loop, loop[1:] + loop[:1], strict=True):
                 if not (two.holds(one.end) and one.holds(two.start)):
                     raise Rejected(f"loop {k}: a tube does not lead into the next one")
             if not any(all(is_off_zero(unit, tube.start) for unit in (*at.units, local)) for tube in loop):
@@ -56,35 +53,35 @@ def components(at: RealSet, data: Any, point: Mapping[str, Any]) -> int:
             for other in loops[:k]:
                 if not all(tube.misses(loop[0].start) for tube in other):
                     raise Rejected(f"loop {k} is not seen to be another one than those before")
-        for box in _critical_points(at, own, local, data.get("critical")):
-            if not any(tube.holds(box) for loop in loops for tube in loop):
+        for box in _critical_points(at, own, local, named(data, "critical")):
+            if _loop_of(box, loops) is None:
                 raise Rejected("a critical point lies in no tube")
-    return len(loops)
+    return loops
 
 
-def square_system(at: RealSet, point: Mapping[str, Any]) -> tuple[Sequence[fmpq_mpoly], fmpq_mpoly]:
+def square_system(at: RealSet, data: Line) -> tuple[Sequence[fmpq_mpoly], fmpq_mpoly]:
     """Equations, and a polynomial off whose zeros they have just those of the set; raises `Rejected`."""
     if len(at.generators) == len(at.variables) - 1:
         return at.generators, at.context.constant(1)
-    return chosen(at.equations, listed(point, "square"), "equation"), implied(at, point)
+    return chosen(at.equations, listed(data, "square"), "equation"), implied(at, data)
 
 
 @dataclass(frozen=True)
 class Tube:
     """Points with one coordinate `along` between two bounds, each other one within `radius` of a line.
 
-    start, end: balls that hold the ends of the arc inside.
+    start, end: balls that hold the ends of the arc inside; box: one that holds all of the tube.
     """
 
     along: int
-    low: arb
-    high: arb
     first: arb
+    last: arb
     centre: tuple[arb, ...]
     slope: tuple[arb, ...]
     radius: arb
     start: tuple[arb, ...] = ()
     end: tuple[arb, ...] = ()
+    box: tuple[arb, ...] = ()
 
     def line(self, t: arb) -> list[arb]:
         """The point of the middle line over a value of the coordinate."""
@@ -94,19 +91,28 @@ class Tube:
 
     def holds(self, box: Sequence[arb]) -> bool:
         """Whether a box lies inside, off both ends."""
-        t = box[self.along]
-        if not (self.low < t < self.high):
-            return False
-        pairs = enumerate(zip(box, self.line(t), strict=True))
-        return all(abs(x - c) < self.radius for i, (x, c) in pairs if i != self.along)
+        return self._beyond(box) < 0 and all(distance < self.radius for distance in self._away(box))
+
+    def overlaps(self, other: Tube) -> bool:
+        """Whether two tubes may have a point in common."""
+        return all(x.overlaps(y) for x, y in zip(self.box, other.box, strict=True))
 
     def misses(self, box: Sequence[arb]) -> bool:
         """Whether a box has no point of the tube."""
-        t = box[self.along]
-        if t < self.low or t > self.high:
-            return True
-        pairs = enumerate(zip(box, self.line(t), strict=True))
-        return any(abs(x - c) > self.radius for i, (x, c) in pairs if i != self.along)
+        return self._beyond(box) > 0 or any(distance > self.radius for distance in self._away(box))
+
+    def _beyond(self, box: Sequence[arb]) -> arb:
+        """Negative between both bounds of the coordinate, positive outside."""
+        return (box[self.along] - self.first) * (box[self.along] - self.last)
+
+    def _away(self, box: Sequence[arb]) -> list[arb]:
+        """How far a box is from the middle line, by each coordinate but one."""
+        pairs = enumerate(zip(box, self.line(box[self.along]), strict=True))
+        return [abs(x - c) for i, (x, c) in pairs if i != self.along]
+
+
+Loops = Sequence[Sequence[Tube]]
+Curve = tuple[RealSet, Loops]
 
 
 class Tubes:
@@ -123,8 +129,8 @@ class Tubes:
 
         For each value of the coordinate the Newton operator maps the box around the line's point into itself.
         """
-        along, first, last, centre, slope, radius = self._read(entry)
-        tube = Tube(along, min(first, last), max(first, last), first, centre, slope, radius)
+        along, first, last, _, slope, radius = numbers = self._read(entry)
+        tube = Tube(*numbers)
         others = [i for i in range(self.size) if i != along]
         middle = (first + last) / 2
         half = arb(0, (abs(last - first) / 2).upper())
@@ -139,44 +145,30 @@ class Tubes:
         terms = max(map(len, series))
         # the inverse first, then the range: what cancels is not counted twice
         on_line = inverse * arb_mat([[*c, *[arb(0)] * (terms - len(c))] for c in series])
-        ranges = [_over([on_line[i, k] for k in range(terms)], half) for i in range(len(others))]
-        spreads = arb_mat([[spread] for _ in others])
-        moved = defect * spreads
+        ranges = [horner([on_line[i, k] for k in range(terms)], half) for i in range(len(others))]
+        moved = defect * arb_mat([[spread] for _ in others])
         if not all(abs(total + moved[i, 0]) < radius for i, total in enumerate(ranges)):
             raise Rejected("a tube: the Newton operator does not map it into itself")
         ends = []
         for t in (first, last):
-            at_end = inverse * self._values(tube.line(t))
-            near = at_end + defect * spreads
-            near = at_end - defect * near
             point = tube.line(t)
+            at_end = inverse * arb_mat([[f.at(point)] for f in self.functions])
+            near = at_end - defect * (at_end + moved)
             for k, i in enumerate(others):
                 point[i] = point[i] - near[k, 0]
             ends.append(tuple(point))
-        return Tube(along, tube.low, tube.high, first, centre, slope, radius, *ends)
+        return Tube(*numbers, ends[0], ends[1], tuple(box))
 
-    def _values(self, point: Sequence[arb]) -> arb_mat:
-        return arb_mat([[f.at(point)] for f in self.functions])
-
-    def _read(self, entry: Any) -> tuple[int, arb, arb, tuple[arb, ...], tuple[arb, ...], arb]:
+    def _read(self, entry: list[Any]) -> tuple[int, arb, arb, tuple[arb, ...], tuple[arb, ...], arb]:
         """The numbers of a tube; raises `Rejected`."""
-        if isinstance(entry, list) and len(entry) == 6:
+        lists = [part for part in entry if isinstance(part, list)]
+        numbers = [x for part in entry for x in (part if isinstance(part, list) else [part])]
+        if [*map(len, lists)] == 2 * [self.size] and len(entry) == 6 and all(type(x) is int for x in numbers):
             along, first, last, centre, slope, radius = entry
-            lists = [part for part in (centre, slope) if isinstance(part, list) and len(part) == self.size]
-            numbers = [along, first, last, radius, *(x for part in lists for x in part)]
-            whole = len(lists) == 2 and all(type(x) is int for x in numbers)
-            if whole and 0 <= along < self.size and radius > 0 and first != last:
+            if lists == [centre, slope] and 0 <= along < self.size and radius > 0 and first != last:
                 a, b, r = _line((first, last, radius))
                 return along, a, b, _line(centre), _line(slope), r
         raise Rejected(f"expected a tube of {self.size} coordinates, got {str(entry)[:80]}")
-
-
-def _over(coefficients: Sequence[arb], t: arb) -> arb:
-    """The values of a polynomial in one variable over a ball around zero."""
-    total = arb(0)
-    for c in reversed(coefficients):
-        total = total * t + c
-    return total
 
 
 def _line(numbers: Sequence[int]) -> tuple[arb, ...]:
@@ -214,14 +206,14 @@ def _check_bounded(at: RealSet, steps: Sequence[Any]) -> None:
         raise Rejected("bounded: not all variables are seen to be bounded")
 
 
-def _critical_points(at: RealSet, own: Sequence[fmpq_mpoly], local: fmpq_mpoly, data: Any) -> list[list[arb]]:
+def _critical_points(at: RealSet, own: Sequence[fmpq_mpoly], local: fmpq_mpoly, data: Line) -> Boxes:
     """Balls around points of the curve among which are all where a coordinate is largest on a component.
 
     variable: the coordinate.  There `local` vanishes, or the determinant of the gradients by the others.
     Their product is on the curve `scale` times that of the polynomials of `factors`, each with its own zeros:
-    steps and equations as of `derive`, and a chart as of the leaf `points`.
+    see `real_points`.
     """
-    if not isinstance(data, Mapping) or data.get("variable") not in at.variables:
+    if data.get("variable") not in at.variables:
         raise Rejected("critical: expected a variable of the set")
     others = [i for i, name in enumerate(at.variables) if name != data["variable"]]
     rows = [[remainder(e.derivative(i), at.equations) for i in others] for e in own]
@@ -233,13 +225,33 @@ def _critical_points(at: RealSet, own: Sequence[fmpq_mpoly], local: fmpq_mpoly, 
             product = product * part
     if not product or remainder(determinant(rows, at.equations) * local - product, at.equations):
         raise Rejected("critical: the determinant is not seen to be this product")
-    found: list[list[arb]] = []
-    for part, entry in zip(parts, factors, strict=True):
-        (there,) = derive(at.within([part]), entry)
-        if any(e.is_constant() for e in there.equations if e):
-            continue
-        form, minimal, coordinates = chart_of(there, entry)
-        check_all(there, form, minimal, coordinates, power(entry))
-        with ctx.workprec(ROOT_BITS):
-            found += real_points(minimal, [coordinates[name] for name in at.variables])
+    pairs = zip(parts, factors, strict=True)
+    return [box for part, entry in pairs for box in real_points(at.within([part]), entry)]
+
+
+def real_points(at: RealSet, line: Line) -> Boxes:
+    """Balls around all real zeros of a set's equations; raises `Rejected`.
+
+    steps and equations as of `derive`, to a constant, or else with a chart as of the leaf `points`.
+    """
+    (there,) = derive(at, line)
+    if any(e.is_constant() for e in there.equations if e):
+        return []
+    chart, roots = chart_of(there, line)
+    with ctx.workprec(ROOT_BITS):
+        return chart.balls(roots)
+
+
+def meetings(one: Curve, two: Curve, line: Line) -> list[tuple[int, int]]:
+    """Which loops of two curves have a point in common, by all points of both sets; raises `Rejected`."""
+    found = []
+    for box in real_points(one[0].within(two[0].equations), line):
+        i, j = (_loop_of(box, loops) for _, loops in (one, two))
+        if i is None or j is None:
+            raise Rejected("a point of two curves lies in no tube")
+        found.append((i, j))
     return found
+
+
+def _loop_of(box: Sequence[arb], loops: Loops) -> int | None:
+    return next((k for k, loop in enumerate(loops) if any(tube.holds(box) for tube in loop)), None)

@@ -12,9 +12,10 @@ from typing import Any
 
 from flint import arb, ctx, fmpq_mpoly, fmpq_poly
 
+from singsym.certificates.checker.balls import horner
 from singsym.certificates.checker.polynomials import Rejected, polynomial, rational, remainder
 from singsym.certificates.checker.ranks import Defects, is_possible, types_of
-from singsym.certificates.checker.sets import MATRICES, RealSet, Statement, listed, power
+from singsym.certificates.checker.sets import MATRICES, RealSet, Statement, listed, named, power
 
 MOST_BITS = 4096
 
@@ -29,35 +30,34 @@ def points(at: RealSet, about: Statement, line: Mapping[str, Any]) -> list[Found
     form: a linear polynomial u; minimal: rational coefficients, constant term first, of a polynomial m
         without double roots; coordinates: of each variable those of a polynomial r.
     Powers of m(u) and of x m'(u) - r(u) have remainder zero by the equations, so that each point of the set
-    is r / m' of a root; the roots at which an equation does not vanish, or a unit does, are left out.
+    is r / m' of a root; the roots at which a generator does not vanish, or a unit does, are left out.
     """
-    form, minimal, coordinates = chart_of(at, line)
-    check_all(at, form, minimal, coordinates, power(line))
-    chart = _Chart(at, minimal, coordinates)
-    if (chart.value(form, minimal) - fmpq_poly([0, 1]) * minimal.derivative() ** degree(form)) % minimal:
-        raise Rejected("form: it is not the root at its points")
-    there = minimal
-    for equation in at.generators:
-        there = there.gcd(chart.value(equation, there))
+    chart, there = chart_of(at, line)
     for unit in at.units:
         there = there // there.gcd(chart.value(unit, there))
     return [
         (types_of(_defects(chart, about, factor)), roots, partial(chart.vanishes, factor))
-        for factor in _factors(there)
+        for factor in map(fmpq_poly, (f for f, _ in there.numer().factor()[1]))
         if (roots := chart.feasible_roots(factor))
     ]
 
 
-def chart_of(at: RealSet, line: Mapping[str, Any]) -> tuple[fmpq_mpoly, fmpq_poly, dict[str, fmpq_poly]]:
-    """The polynomials `form`, `minimal` and `coordinates` of a line; raises `Rejected`."""
-    minimal = _univariate(listed(line, "minimal", str))
+def chart_of(at: RealSet, line: Mapping[str, Any]) -> tuple[Chart, fmpq_poly]:
+    """All zeros of the equations of a set, and the polynomial of their roots; raises `Rejected`."""
+    form, minimal = polynomial(line.get("form", ""), at.context), _univariate(listed(line, "minimal", str))
     if minimal.degree() < 1 or minimal.gcd(minimal.derivative()).degree() > 0:
         raise Rejected("minimal: expected a polynomial of positive degree without double roots")
-    given = line.get("coordinates")
-    if not isinstance(given, dict) or set(given) != set(at.variables):
+    given = named(line, "coordinates")
+    if set(given) != set(at.variables):
         raise Rejected(f"coordinates: expected one for each of {list(at.variables)}")
     coordinates = {name: _univariate(given[name]) % minimal for name in at.variables}
-    return polynomial(line.get("form", ""), at.context), minimal, coordinates
+    chart, there = Chart(at, minimal, coordinates), minimal
+    _check_all(chart, form, power(line))
+    if (chart.value(form, minimal) - fmpq_poly([0, 1]) * minimal.derivative() ** degree(form)) % minimal:
+        raise Rejected("form: it is not the root at its points")
+    for equation in at.generators:
+        there = there.gcd(chart.value(equation, there))
+    return chart, there
 
 
 def _univariate(texts: Any) -> fmpq_poly:
@@ -66,25 +66,18 @@ def _univariate(texts: Any) -> fmpq_poly:
     return fmpq_poly([rational(text) for text in texts])
 
 
-def _factors(f: fmpq_poly) -> list[fmpq_poly]:
-    """The irreducible factors of a polynomial without double roots."""
-    return [fmpq_poly(factor) for factor, _ in f.numer().factor()[1]] if f.degree() > 0 else []
-
-
-def check_all(
-    at: RealSet, form: fmpq_mpoly, minimal: fmpq_poly, coordinates: Mapping[str, fmpq_poly], exponent: int
-) -> None:
+def _check_all(chart: Chart, form: fmpq_mpoly, exponent: int) -> None:
     """Whether each complex point of the equations is one of the chart's; raises `Rejected`."""
-    powers = [at.context.constant(1)]
-    for _ in range(minimal.degree()):
+    at, powers = chart.at, [chart.at.context.constant(1)]
+    for _ in range(chart.minimal.degree()):
         powers.append(remainder(powers[-1] * form, at.equations))
 
     def put(f: fmpq_poly) -> fmpq_mpoly:
         return sum((p * c for p, c in zip(powers, f.coeffs(), strict=False)), start=at.context.constant(0))
 
-    gens = dict(zip(at.context.names(), at.context.gens(), strict=True))
-    below = put(minimal.derivative())
-    for f in (put(minimal), *(gens[name] * below - put(r) for name, r in coordinates.items())):
+    *coordinates, below = map(put, chart.images)
+    pairs = zip(at.context.gens(), coordinates, strict=True)
+    for f in (put(chart.minimal), *(gen * below - r for gen, r in pairs)):
         product = at.context.constant(1)
         for _ in range(exponent):
             product = remainder(product * f, at.equations)
@@ -98,11 +91,11 @@ def degree(*polynomials: fmpq_mpoly) -> int:
     return -(-max(degrees, default=0) // 2) * 2
 
 
-class _Chart:
+class Chart:
     """The points r(u) / m'(u) of a set, for the roots u of a polynomial m."""
 
     def __init__(self, at: RealSet, minimal: fmpq_poly, coordinates: Mapping[str, fmpq_poly]) -> None:
-        self.at = at
+        self.at, self.minimal = at, minimal
         self.images = [*(coordinates[name] for name in at.context.names()), minimal.derivative()]
 
     def value(self, f: fmpq_mpoly, modulus: fmpq_poly, even: int | None = None) -> fmpq_poly:
@@ -140,11 +133,17 @@ class _Chart:
         while bits <= MOST_BITS:
             with ctx.workprec(bits):
                 roots = real_roots(factor)
-                decided = [[_sign(value, root) for value in signs] for root in roots]
-            if not any(0 in own for own in decided):
+                decided = [[horner(value.coeffs(), root).sgn() for value in signs] for root in roots]
+            if all(sign.is_exact() for own in decided for sign in own):
                 return sum(all(sign > 0 for sign in own) for own in decided)
             bits *= 2
         raise Rejected(f"a sign at a point is not seen with {MOST_BITS} bits")
+
+    def balls(self, there: fmpq_poly) -> list[list[arb]]:
+        """Balls around the points of the real roots of a polynomial without double roots."""
+        polynomials = [f.coeffs() for f in self.images]
+        values = [[horner(f, root) for f in polynomials] for root in real_roots(there)]
+        return [[value / below for value in own] for *own, below in values]
 
 
 def real_roots(factor: fmpq_poly) -> list[arb]:
@@ -153,27 +152,7 @@ def real_roots(factor: fmpq_poly) -> list[arb]:
     return [root.real for root, _ in roots if root.imag == 0]
 
 
-def ball(value: fmpq_poly, root: arb) -> arb:
-    """A ball around the value at a root."""
-    total = arb(0)
-    for c in reversed(value.coeffs()):
-        total = total * root + arb(c)
-    return total
-
-
-def real_points(minimal: fmpq_poly, coordinates: Sequence[fmpq_poly]) -> list[list[arb]]:
-    """Balls around the real points of a chart."""
-    slope = minimal.derivative()
-    return [[ball(r, root) / ball(slope, root) for r in coordinates] for root in real_roots(minimal)]
-
-
-def _sign(value: fmpq_poly, root: arb) -> int:
-    """The sign of a value at a root, 0 where it is not seen."""
-    total = ball(value, root)
-    return 1 if total > 0 else -1 if total < 0 else 0
-
-
-def _defects(chart: _Chart, about: Statement, factor: fmpq_poly) -> Defects:
+def _defects(chart: Chart, about: Statement, factor: fmpq_poly) -> Defects:
     """The defects at the roots of an irreducible polynomial, one of them real, which are all alike."""
     at = chart.at
     even = degree(*(entry for row in at.matrix for entry in row))

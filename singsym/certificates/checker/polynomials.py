@@ -104,12 +104,13 @@ def remainder(f: fmpq_mpoly, divisors: Iterable[fmpq_mpoly]) -> fmpq_mpoly:
 
 def s_polynomial(f: fmpq_mpoly, g: fmpq_mpoly) -> fmpq_mpoly:
     """The combination of two polynomials, not zero, in which their leading terms cancel."""
-    context = f.context()
-    a, b = f.monomial(0), g.monomial(0)
-    lcm = tuple(map(max, a, b))
-    left = context.from_dict({tuple(m - n for m, n in zip(lcm, a, strict=True)): 1 / f.coefficient(0)})
-    right = context.from_dict({tuple(m - n for m, n in zip(lcm, b, strict=True)): 1 / g.coefficient(0)})
-    return left * f - right * g
+    lcm = tuple(map(max, f.monomial(0), g.monomial(0)))
+
+    def raised(h: fmpq_mpoly) -> fmpq_mpoly:
+        more = tuple(m - n for m, n in zip(lcm, h.monomial(0), strict=True))
+        return h * h.context().from_dict({more: 1 / h.coefficient(0)})
+
+    return raised(f) - raised(g)
 
 
 def determinant(rows: Sequence[Sequence[fmpq_mpoly]], divisors: Sequence[fmpq_mpoly]) -> fmpq_mpoly:

@@ -7,7 +7,7 @@ Fenton, Benhabib (1998), conditions (i) to (vi), and the inequalities of Table 1
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import combinations, product
+from itertools import combinations, compress, product
 from typing import Any
 
 from flint import fmpq_mpoly
@@ -19,6 +19,7 @@ from singsym.certificates.checker.sets import MATRICES, RealSet, Statement, chos
 Defects = tuple[int, int, int, int]
 """How far L, L_p, L_I and L_O are below full rank: delta, p, k_I, k_O."""
 
+Rows = Sequence[Sequence[fmpq_mpoly]]
 Bounds = dict[str, tuple[int, int]]
 """Of each matrix the least and the largest defect that there may be."""
 
@@ -32,15 +33,8 @@ def types_of(defects: Defects) -> str:
     'RO, II'
     """
     delta, p, inputs, outputs = defects
-    holds = {
-        "RI": outputs > p,
-        "RO": inputs > p,
-        "RPM": p > 0,
-        "II": inputs > delta,
-        "IO": outputs > delta,
-        "IIM": delta > 0,
-    }
-    return ", ".join(name for name, there in holds.items() if there)
+    holds = (outputs > p, inputs > p, p > 0, inputs > delta, outputs > delta, delta > 0)
+    return ", ".join(compress(("RI", "RO", "RPM", "II", "IO", "IIM"), holds))
 
 
 def is_possible(defects: Defects, n: int) -> bool:
@@ -82,9 +76,7 @@ def bounds_on(at: RealSet, about: Statement, evidence: Mapping[str, Any]) -> Bou
     return found
 
 
-def _rank(
-    at: RealSet, rows: list[list[fmpq_mpoly]], item: Mapping[str, Any], low: int, high: int
-) -> tuple[int, int]:
+def _rank(at: RealSet, rows: Rows, item: Mapping[str, Any], low: int, high: int) -> tuple[int, int]:
     """The least and largest rank by one item of evidence.
 
     `{"below": k}`: all k-minors vanish.  `{"rows": ..., "columns": ..., "units": ..., "scale": ...}`: this
@@ -112,14 +104,12 @@ def _rank(
     return size, size
 
 
-def _minor(
-    at: RealSet, rows: Sequence[Sequence[fmpq_mpoly]], own: Sequence[int], columns: Sequence[int]
-) -> fmpq_mpoly:
+def _minor(at: RealSet, rows: Rows, own: Sequence[int], columns: Sequence[int]) -> fmpq_mpoly:
     block = [[remainder(rows[i][j], at.equations) for j in columns] for i in own]
     return determinant(block, at.equations)
 
 
-def _minors(at: RealSet, rows: Sequence[Sequence[fmpq_mpoly]], size: int) -> Iterator[fmpq_mpoly]:
+def _minors(at: RealSet, rows: Rows, size: int) -> Iterator[fmpq_mpoly]:
     """All minors of a size, for matrices that do not have too many."""
     width = len(rows[0]) if rows else 0
     choices = list(product(combinations(range(len(rows)), size), combinations(range(width), size)))

@@ -121,9 +121,5 @@ def pivot(at: RealSet, line: Line) -> tuple[RealSet, ...]:
 
 
 RULES: dict[str, Callable[[RealSet, Line], tuple[RealSet, ...]]] = {
-    "split": split,
-    "derive": derive,
-    "cancel": cancel,
-    "squares": squares,
-    "pivot": pivot,
+    rule.__name__: rule for rule in (split, derive, cancel, squares, pivot)
 }

@@ -75,6 +75,14 @@ def listed(data: Mapping[str, Any], key: str, kind: type = object, default: Any 
     return value
 
 
+def named(data: Mapping[str, Any], key: str, default: Any = None) -> Mapping[str, Any]:
+    """An object of a line; raises `Rejected` where it is something else."""
+    value = data.get(key, default)
+    if not isinstance(value, dict):
+        raise Rejected(f"{key}: expected an object, got {str(value)[:80]}")
+    return value
+
+
 def whole_number(data: Mapping[str, Any], key: str) -> int:
     """A number that is not negative; raises `Rejected` where there is something else."""
     value = data.get(key)

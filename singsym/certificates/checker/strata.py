@@ -16,9 +16,10 @@ from flint import arb, arb_mat, ctx, fmpq, fmpq_mpoly
 from singsym.certificates.checker.balls import Compiled, is_off_zero, preconditioned
 from singsym.certificates.checker.polynomials import Rejected, polynomial, rational, remainder, ring
 from singsym.certificates.checker.rules import derive
-from singsym.certificates.checker.sets import RealSet, chosen, listed
+from singsym.certificates.checker.sets import RealSet, chosen, listed, named
 
 BITS = 200
+Values = Mapping[str, fmpq]
 INVERSE = "inverse__"
 """The name of the variable that is the inverse of a polynomial."""
 
@@ -50,12 +51,12 @@ def dimension_below(at: RealSet, point: Mapping[str, Any]) -> int:
     fixed: variables with their rational values; centre: the others with numbers near theirs; radius: of the
     box.
     square: the places of as many equations.  The others follow from these near the point: by `implied`, see
-    `_check_implied`.
+    `implied`.
     Where the box has a point, the gradients of the square system are independent, so that its zeros are a
     manifold there, and the inequalities are strict.
     """
-    fixed = {name: rational(value) for name, value in _named(point, "fixed").items()}
-    centre = {name: rational(value) for name, value in _named(point, "centre").items()}
+    fixed = {name: rational(value) for name, value in named(point, "fixed").items()}
+    centre = {name: rational(value) for name, value in named(point, "centre").items()}
     if set(fixed) & set(centre) or {*fixed, *centre} != set(at.variables):
         raise Rejected(f"point: expected a value for each of {list(at.variables)}")
     square = listed(point, "square")
@@ -73,20 +74,7 @@ def dimension_below(at: RealSet, point: Mapping[str, Any]) -> int:
     return len(fixed)
 
 
-def _named(point: Mapping[str, Any], key: str) -> dict[str, Any]:
-    value = point.get(key)
-    if not isinstance(value, dict):
-        raise Rejected(f"{key}: expected values by names, got {str(value)[:80]}")
-    return value
-
-
-def _box(
-    at: RealSet,
-    equations: list[fmpq_mpoly],
-    fixed: Mapping[str, fmpq],
-    centre: Mapping[str, fmpq],
-    radius: fmpq,
-) -> list[arb]:
+def _box(at: RealSet, equations: list[fmpq_mpoly], fixed: Values, centre: Values, radius: fmpq) -> list[arb]:
     """The values of all variables in a box in which the equations have exactly one zero."""
     if radius <= 0:
         raise Rejected("radius: expected a positive number")
@@ -110,13 +98,12 @@ def implied(at: RealSet, point: Mapping[str, Any]) -> fmpq_mpoly:
     """A polynomial off whose zeros all equations vanish where those of `square` do; raises `Rejected`.
 
     implied: the polynomial `local`; steps and equations as of `derive`, from the square system with one more
-    variable, the inverse of that polynomial.  Nothing where the square system has all equations.
+    variable, the inverse of that polynomial.  Nothing where the square system has all generators.
     """
-    square, data = listed(point, "square"), point.get("implied", {})
-    if set(square) == set(range(len(at.equations))):
+    own, data = chosen(at.equations, listed(point, "square"), "equation"), named(point, "implied", {})
+    others = [g for g in at.generators if g and g not in own]
+    if not others:
         return at.context.constant(1)
-    if not isinstance(data, dict):
-        raise Rejected("the other equations are not seen to vanish at the point")
     local = polynomial(data.get("local", ""), at.context)
     larger = ring([INVERSE, *at.context.names()])
     one = larger.constant(1)
@@ -124,9 +111,8 @@ def implied(at: RealSet, point: Mapping[str, Any]) -> fmpq_mpoly:
     def raised(f: fmpq_mpoly) -> fmpq_mpoly:
         return f.project_to_context(larger)
 
-    start = [*(raised(at.equations[k]) for k in square), one - larger.gens()[0] * raised(local)]
+    start = [*map(raised, own), one - larger.gens()[0] * raised(local)]
     derived = derive(replace(at, context=larger, equations=tuple(start)), data)[0]
-    for k, equation in enumerate(at.equations):
-        if k not in square and remainder(raised(equation), derived.equations):
-            raise Rejected(f"equation {k} is not seen to vanish at the point")
+    if any(remainder(raised(g), derived.equations) for g in others):
+        raise Rejected("a generator is not seen to vanish at the point")
     return local

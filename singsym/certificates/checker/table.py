@@ -5,24 +5,26 @@ Source: Zlatanov, Fenton, Benhabib (1998), Table 1; singsym's own for what leave
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import chain, combinations, product
 from typing import Any
 
 from flint import fmpq_mpoly
 
+from singsym.certificates.checker.curves import Loops
 from singsym.certificates.checker.polynomials import Rejected
 from singsym.certificates.checker.sets import RealSet
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Finding:
     """What a leaf shows of its set.
 
     types: those that its points can have; points: their number, None where it is not known; low, high: bounds
     of its dimension, -1 for the empty set; components: those of a smooth curve, all zeros of its equations,
-    that is its closure; zero: whether a polynomial vanishes at its points, where that is known exactly; line:
-    of the leaf, 0 for a set that is left open.
+    that is its closure, in tubes; zero: whether a polynomial vanishes at its points, where that is known;
+    line: of the leaf, 0 for an open set; joins: by lines of other curves, which loops of both meet.
     """
 
     at: RealSet
@@ -30,29 +32,26 @@ class Finding:
     points: int | None
     low: int
     high: int
-    components: int | None = None
+    components: Loops | None = None
     zero: Callable[[fmpq_mpoly], bool] | None = None
     line: int = 0
+    joins: Mapping[int, Sequence[tuple[int, int]]] = field(default_factory=dict)
 
-    @property
-    def closed_components(self) -> int | None:
-        """Components of the set, closed up."""
-        return self.components if self.points is None else self.points
+    def overlaps(self, other: Finding) -> bool:
+        """Whether a tube of one curve and one of another may have a point in common."""
+        tubes = (chain(*(f.components or ())) for f in (self, other))
+        return any(a.overlaps(b) for a, b in product(*tubes))
 
     def holds(self, other: Finding) -> bool:
         """Whether finitely many points lie on the curve."""
-        return (
-            self.components is not None
-            and other.zero is not None
-            and all(map(other.zero, self.at.generators))
-        )
+        return other.zero is not None and all(map(other.zero, self.at.generators))
 
 
 @dataclass(frozen=True)
 class Row:
     """What is known of the configurations of exactly some types; None: not proven.
 
-    components: connected components, those of a curve closed up.
+    components: connected ones, of each curve by itself, closed up; together: of all of them, which may meet.
     """
 
     types: str
@@ -60,14 +59,14 @@ class Row:
     dimension: int | None = None
     points: int | None = None
     components: int | None = None
+    together: int | None = field(default=None, compare=False)
 
     def text(self) -> str:
         """The row in words."""
-        if self.occurs is None:
-            return f"{self.types}: not proven"
         if not self.occurs:
-            return f"{self.types}: empty"
-        numbers = ((self.points, "points"), (self.components, "components"))
+            return f"{self.types}: {'not proven' if self.occurs is None else 'empty'}"
+        together = None if self.together == self.components else self.together
+        numbers = ((self.points, "points"), (self.components, "components"), (together, "together"))
         sizes = [f"{k} {word}" for k, word in numbers if k is not None]
         dimension = "dimension not proven" if self.dimension is None else f"dimension {self.dimension}"
         return f"{self.types}: occurs, {', '.join((dimension, *sizes))}"
@@ -77,27 +76,41 @@ def proven_row(types: str, findings: Iterable[Finding]) -> Row:
     """The row that all leaves of a certificate prove together."""
     own = [f for f in findings if types in f.types and f.high >= 0]
     if not own:
-        return Row(types, False, -1, 0, 0)
+        return Row(types, False, -1, 0, 0, 0)
     sure = [f for f in own if f.low >= 0 and len(f.types) == 1]
     if not sure:
         return Row(types, None)
     low, high = max(f.low for f in sure), max(f.high for f in own)
-    numbers = [f.points for f in own]
-    points = None if None in numbers else sum(k for k in numbers if k is not None)
+    points = _sum(f.points for f in own)
     # points that lie on a curve of the row are no components of their own
-    apart = [f for f in own if f.points is None or not any(c.holds(f) for c in own)]
-    if points is None and any(f.points is not None for f in apart):
-        return Row(types, True, low if low == high else None)
-    parts = [f.closed_components for f in apart]
-    components = None if None in parts else sum(k for k in parts if k is not None)
-    return Row(types, True, low if low == high else None, points, components)
+    curves = [f for f in own if f.components is not None and len(f.types) == 1]
+    apart = [f.points for f in own if f not in curves and not any(c.holds(f) for c in curves)]
+    numbers = points, _sum([*apart, *(_pieces([f]) for f in curves)]), _sum([*apart, _pieces(curves)])
+    return Row(types, True, low if low == high else None, *numbers)
+
+
+def _sum(numbers: Iterable[int | None]) -> int | None:
+    known = [*numbers]
+    return None if None in known else sum(k for k in known if k is not None)
+
+
+def _pieces(curves: Sequence[Finding]) -> int | None:
+    """How many connected components curves have together; None where it is not known which loops meet."""
+    piece = {(f.line, k): (f.line, k) for f in curves for k in range(len(f.components or ()))}
+    for one, two in combinations(curves, 2):
+        if one.line not in two.joins and one.overlaps(two):
+            return None
+        for k, i in two.joins.get(one.line, ()):
+            old, new = piece[two.line, k], piece[one.line, i]
+            piece = {key: new if of == old else of for key, of in piece.items()}
+    return len({*piece.values()})
 
 
 def claimed_rows(data: Any) -> tuple[Row, ...]:
     """The rows that a certificate says it proves; raises `Rejected`."""
     if not isinstance(data, list) or not data:
         raise Rejected("claims: expected a list of rows")
-    return tuple(_claimed(entry) for entry in data)
+    return tuple(map(_claimed, data))
 
 
 def _claimed(entry: Any) -> Row:
@@ -136,5 +149,12 @@ def _pairs(claim: Row, proven: Row) -> tuple[tuple[str, Any, Any], ...]:
         whether,
         ("dimension", claim.dimension, proven.dimension),
         ("number of points", claim.points, proven.points),
-        ("number of components", claim.components, proven.components),
+        ("number of components", claim.components, _components(claim.components, proven)),
     )
+
+
+def _components(claimed: int | None, proven: Row) -> int | None:
+    """The number that a claim is about: all curves by themselves, or together; None where it is between."""
+    least, most = proven.together, proven.components
+    between = claimed is not None and most is not None and (least or 0) < claimed < most
+    return least if claimed == least else None if between else most

@@ -8,17 +8,26 @@ from __future__ import annotations
 import gzip
 import json
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 from pathlib import Path
 from typing import Any
 
-from singsym.certificates.checker.curves import components
+from singsym.certificates.checker.curves import components, meetings
 from singsym.certificates.checker.points import points
 from singsym.certificates.checker.polynomials import Rejected
 from singsym.certificates.checker.ranks import bounds_on, is_possible, possible_types, types_of
 from singsym.certificates.checker.rules import RULES
-from singsym.certificates.checker.sets import RealSet, Statement, chosen, listed, statement, whole_number
+from singsym.certificates.checker.sets import (
+    RealSet,
+    Statement,
+    chosen,
+    listed,
+    named,
+    statement,
+    whole_number,
+)
 from singsym.certificates.checker.strata import dimension_above, dimension_below
 from singsym.certificates.checker.table import Finding, Row, claimed_rows, contradicted, proven_row, unproven
 
@@ -63,18 +72,17 @@ def verify(path: str | Path) -> Verification:
     Raises `Rejected`, a `ValueError`, with the line, for a file that is no certificate, or of which a step
     is wrong or a claim disproven; `OSError` where it cannot be read.
     """
-    lines = _lines(Path(path))
-    number, header = next(lines, (1, {}))
+    header, data, *lines = _lines(Path(path))
+    number = 1
     try:
         if header.get("format") != FORMAT or not isinstance(header.get("name"), str):
             raise Rejected(f"expected a file of the format {FORMAT!r}")
         claims = claimed_rows(header.get("claims"))
-        number, data = next(lines, (2, {}))
+        number = 2
         about = statement(data)
         proof = _Proof(about)
-        for entry in lines:
-            number = entry[0]
-            proof.add(*entry)
+        for number, line in enumerate(lines, 3):
+            proof.add(number, line)
     except Rejected as error:
         raise Rejected(f"line {number}: {error}") from None
     findings = proof.findings()
@@ -83,21 +91,16 @@ def verify(path: str | Path) -> Verification:
     return Verification(header["name"], proven, claims, missing, proof.rules, data, tuple(findings))
 
 
-def _lines(path: Path) -> Iterator[tuple[int, dict[str, Any]]]:
-    """The lines with their numbers, from 1; raises `Rejected`."""
+def _lines(path: Path) -> list[dict[str, Any]]:
+    """The lines of a file; raises `Rejected`."""
     written = path.read_bytes()
     try:
-        text = gzip.decompress(written).decode()
+        lines = [json.loads(line) for line in gzip.decompress(written).decode().splitlines()]
     except Exception as error:  # of damaged bytes, whatever it is
         raise Rejected(f"{path}: expected JSON lines, compressed by gzip: {error}") from None
-    for number, line in enumerate(text.splitlines(), 1):
-        try:
-            data = json.loads(line)
-        except (ValueError, RecursionError) as error:
-            raise Rejected(f"line {number}: {error}") from None
-        if not isinstance(data, dict):
-            raise Rejected(f"line {number}: expected an object")
-        yield number, data
+    if len(lines) < 2 or not all(isinstance(line, dict) for line in lines):
+        raise Rejected(f"{path}: expected lines of the format {FORMAT!r}, each an object")
+    return lines
 
 
 class _Proof:
@@ -127,7 +130,7 @@ class _Proof:
             self.rules["open"] += 1
             return
         elif rule in LEAVES:
-            found = _leaf(self.open[place], self.about, line)
+            found = _leaf(self.open[place], self.about, line, self.done)
             self.done += [replace(finding, line=number) for finding in found]
         else:
             raise Rejected(f"rule: expected one of {', '.join((*RULES, *LEAVES))}, got {str(rule)[:80]}")
@@ -141,43 +144,41 @@ class _Proof:
         return [*self.done, *doubts]
 
 
-def _leaf(at: RealSet, about: Statement, line: Mapping[str, Any]) -> list[Finding]:
+def _leaf(at: RealSet, about: Statement, line: Mapping[str, Any], before: Sequence[Finding]) -> list[Finding]:
     if line["rule"] == "empty":
-        _check_empty(at, line)
+        f = chosen(at.equations, [line.get("equation")], "equation")[0]
+        if not f or not f.is_constant():
+            raise Rejected("the set is not seen to be empty")
         return []
     if line["rule"] == "points":
         return [Finding(at, frozenset([t]), k, 0, 0, zero=f) for t, k, f in points(at, about, line)]
-    evidence = line.get("ranks")
-    if not isinstance(evidence, Mapping):
-        raise Rejected("ranks: expected evidence for matrices, by their names")
-    types = possible_types(bounds_on(at, about, evidence), about.n)
+    types = possible_types(bounds_on(at, about, named(line, "ranks")), about.n)
     if not types:
         raise Rejected("no defects are possible: N and n are not those of L")
-    point = line.get("point")
-    if not isinstance(point, Mapping | None):
-        raise Rejected(f"point: expected a box, got {str(point)[:80]}")
-    low = -1 if point is None else dimension_below(at, point)
-    parts = None if line.get("curve") is None else components(at, line["curve"], point or {})
-    return [Finding(at, types, None, low, dimension_above(at), parts)]
-
-
-def _check_empty(at: RealSet, line: Mapping[str, Any]) -> None:
-    """Whether an equation is a constant that is not zero; raises `Rejected`."""
-    f = chosen(at.equations, [line.get("equation")], "equation")[0]
-    if not f or not f.is_constant():
-        raise Rejected("the set is not seen to be empty")
+    low = dimension_below(at, named(line, "point")) if "point" in line else -1
+    if "curve" not in line:
+        return [Finding(at, types, None, low, dimension_above(at))]
+    data = named(line, "curve")
+    loops = components(at, {**named(line, "point", {}), **data})
+    if not loops:
+        return []
+    joins, curves = {}, {f.line: (f.at, f.components) for f in before if f.components}
+    for entry in listed(data, "meets", dict, []):
+        number = whole_number(entry, "line")
+        if number not in curves:
+            raise Rejected("meets: expected the line of a curve before")
+        joins[number] = meetings((at, loops), curves[number], entry)
+    return [Finding(at, types, None, low, dimension_above(at), loops, joins=joins)]
 
 
 def all_types(about: Statement) -> list[str]:
     """The types that configurations of this mobility can have, but for none."""
     found: dict[str, None] = {}
     # lowering all four defects by one keeps the types while delta, p > 1; |delta - p| <= n
-    for delta in range(about.n + 2):
-        for p in range(about.n + 2):
-            for inputs in range(2 * about.n + 2):
-                for outputs in range(2 * about.n + 2):
-                    if is_possible((delta, p, inputs, outputs), about.n):
-                        found[types_of((delta, p, inputs, outputs))] = None
+    few, more = range(about.n + 2), range(2 * about.n + 2)
+    for delta, p, inputs, outputs in product(few, few, more, more):
+        if is_possible((delta, p, inputs, outputs), about.n):
+            found[types_of((delta, p, inputs, outputs))] = None
     return sorted(filter(None, found), key=lambda types: (len(types), types))
 
 

@@ -8,17 +8,18 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from decimal import Decimal
 from fractions import Fraction
-from itertools import product
+from itertools import islice, product
 from typing import Any
 
 from flint import arb, arb_mat, ctx, fmpq, fmpq_mpoly
 
-from singsym.certificates.checker.polynomials import Rejected, polynomial, remainder, ring
+from singsym.certificates.checker.polynomials import Rejected, remainder, ring
 from singsym.certificates.checker.sets import RealSet
 from singsym.certificates.checker.strata import BITS, INVERSE, dimension_below
 from singsym.certificates.prover.traced_basis import traced_basis
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Undecided
+from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.real.numerical.sampling import numerical_points
 from singsym.varieties.real.system import RealSystem
@@ -26,10 +27,11 @@ from singsym.varieties.real.system import RealSystem
 GRIDS = (8, 64, 2**12, 2**24)
 """Coordinates that are held are rounded to one over one of these."""
 STEPS = 12
+MOST_LOCALS, MOST_TERMS = 5, 200
 DIGITS = 30
 RADIUS = Fraction(1, 10**20)
-FOLLOWS = 20.0
-"""Seconds of work in which the other equations are to follow from the square system."""
+FOLLOWS, QUOTIENT = 20.0, 5.0
+"""Seconds of work in which the other equations are to follow from the square system, and to find where."""
 
 
 def point_leaf(at: RealSet, near: Sequence[Sequence[float]]) -> tuple[dict[str, Any], int] | None:
@@ -37,16 +39,18 @@ def point_leaf(at: RealSet, near: Sequence[Sequence[float]]) -> tuple[dict[str, 
 
     near: numerical points that may be of it; others are looked for where none of them is.
     """
-    places = range(len(at.equations))
-    orders = (sorted(places, key=lambda k: _length(at.equations[k])), list(places))
-    for start, order in product(_starts(at, near), orders):
-        rows, columns = _independent(at, start, order)
-        for grid in GRIDS:
+    shortest = by_length(at.equations)
+    orders = (shortest, sorted(shortest, key=lambda k: at.equations[k] not in at.generators))
+    for start in _starts(at, near):
+        ways = [independent(at, start, order) for order in orders]
+        # where all generators are taken nothing has to follow from them
+        ways.sort(key=lambda way: bool(_others(at, way[0])))
+        for (rows, columns), grid in product(ways, GRIDS):
             data = _boxed(at, start, rows, columns, grid)
             if data is None:
                 continue
-            if len(rows) < len(at.equations):
-                implied = _implied(at, rows)
+            if _others(at, rows):
+                implied = implied_by(at, rows, start)
                 if implied is None:
                     break
                 data["implied"] = implied
@@ -68,13 +72,13 @@ def _starts(at: RealSet, near: Sequence[Sequence[float]]) -> Iterator[Sequence[f
     positive, nonnegative = raised(at.positive), raised(at.nonnegative)
     for point in near:
         small = all(abs(e.evaluate(point)) < 1e-6 * _largest(e, point) for e in equations)
-        off = all(abs(g.evaluate(point)) > 1e-6 * _largest(g, point) for (g,) in exclusions)
+        off = all(is_off(unit, point) for unit in at.units)
         if small and off and all(p.evaluate(point) > 0 for p in (*positive, *nonnegative)):
             yield point
     yield from numerical_points(RealSystem(own, equations, exclusions, positive, nonnegative))
 
 
-def _largest(f: Polynomial, point: Sequence[float]) -> float:
+def _largest(f: Polynomial, point: Sequence[complex]) -> float:
     """The size of the largest term at a point, at least 1."""
     sizes = [1.0]
     for exponents, coefficient in f.terms():
@@ -85,24 +89,29 @@ def _largest(f: Polynomial, point: Sequence[float]) -> float:
     return max(sizes)
 
 
+def by_length(equations: Sequence[fmpq_mpoly]) -> list[int]:
+    """Places of equations, those of low degree and few terms first."""
+    return sorted(range(len(equations)), key=lambda k: _length(equations[k]))
+
+
 def _length(f: fmpq_mpoly) -> tuple[int, int]:
     return int(f.total_degree()), len(f)
 
 
-def _independent(at: RealSet, point: Sequence[float], order: Sequence[int]) -> tuple[list[int], list[int]]:
+def independent(at: RealSet, point: Sequence[complex], order: Sequence[int]) -> tuple[list[int], list[int]]:
     """The first equations in an order with independent gradients, and as many variables to be solved for."""
     import numpy
 
     own = Ring(at.variables)
     slopes = [[Polynomial(own, e.derivative(i)) for i in range(len(point))] for e in at.equations]
-    gradients = [[float(slope.evaluate(point)) for slope in row] for row in slopes]
+    gradients = [[complex(slope.evaluate(point)) for slope in row] for row in slopes]
     rows: list[int] = []
     basis: list[Any] = []
     for k in order:
         vector = numpy.array(gradients[k])
         size = numpy.linalg.norm(vector)
         for b in basis:
-            vector = vector - (vector @ b) * b
+            vector = vector - numpy.vdot(b, vector) * b
         if size and numpy.linalg.norm(vector) > 1e-6 * size:
             rows.append(k)
             basis.append(vector / numpy.linalg.norm(vector))
@@ -152,23 +161,51 @@ def _text(value: Fraction) -> str:
     return str(value)
 
 
-def _implied(at: RealSet, rows: list[int]) -> dict[str, Any] | None:
-    """How the other equations follow from the square system off the zeros of units; None where they do not.
+def _others(at: RealSet, rows: Sequence[int]) -> list[fmpq_mpoly]:
+    """The generators that are not among some equations."""
+    own = [at.equations[k] for k in rows]
+    return [g for g in at.generators if g and g not in own]
 
-    First without units, then with all of them.
+
+def implied_by(at: RealSet, rows: Sequence[int], near: Sequence[complex]) -> dict[str, Any] | None:
+    """How other generators follow from the square system off the zeros of a polynomial, if they do.
+
+    near: a point at which that polynomial does not vanish.
     """
     larger = ring([INVERSE, *at.variables])
     gen = larger.gens()[0]
-    units = at.context.constant(1)
-    for unit in at.units:
-        units = units * unit
     square = [at.equations[k].project_to_context(larger) for k in rows]
-    others = [e.project_to_context(larger) for k, e in enumerate(at.equations) if k not in rows]
-    for local in dict.fromkeys(map(str, (at.context.constant(1), units))):
-        start = [*square, 1 - gen * polynomial(local, at.context).project_to_context(larger)]
+    others = [g.project_to_context(larger) for g in _others(at, rows)]
+    for local in islice((f for f in _locals(at, rows) if is_off(f, near)), MOST_LOCALS):
+        start = [*square, 1 - gen * local.project_to_context(larger)]
         failures: list[Undecided] = []
         with attempt("that equations follow from others", FOLLOWS, failures=failures) as budget:
             found = traced_basis(start, budget)
-        if not failures and not any(remainder(e, found.basis) for e in others):
-            return {"local": local, "steps": found.steps, "equations": found.equations}
+        if not failures and not any(remainder(g, found.basis) for g in others):
+            return {"local": str(local), "steps": found.steps, "equations": found.equations}
     return None
+
+
+def is_off(f: fmpq_mpoly, point: Sequence[complex]) -> bool:
+    """Whether a polynomial is not zero at a numerical point."""
+    own = Polynomial(Ring(f.context().names()), f)
+    return bool(abs(own.evaluate(point)) > 1e-6 * _largest(own, point))
+
+
+def _locals(at: RealSet, rows: Sequence[int]) -> Iterator[fmpq_mpoly]:
+    """Polynomials off whose zeros the equations may be those of a square system.
+
+    1; the product of the units; polynomials whose products with all equations are in the square's ideal.
+    """
+    units = at.context.constant(1)
+    yield units
+    for unit in at.units:
+        units = units * unit
+    if len(units) < MOST_TERMS:
+        yield units
+    ring = Ring(at.variables)
+    everything = Ideal(ring, [Polynomial(ring, e) for e in at.equations if e])
+    with attempt("a quotient of ideals", QUOTIENT):
+        square = Ideal(ring, [Polynomial(ring, at.equations[k]) for k in rows])
+        found = square.quotient(everything).value.groebner_basis().value
+        yield from sorted((f.value for f in found), key=_length)

@@ -14,6 +14,7 @@ from flint import fmpq_mpoly
 
 from singsym.certificates.checker.polynomials import primitive, s_polynomial
 from singsym.effort.budget import Budget
+from singsym.elimination.monomial_ideals import divides, minimal
 
 Monomial = tuple[int, ...]
 
@@ -28,15 +29,18 @@ class TracedBasis:
 
 
 def traced_basis(
-    equations: Sequence[fmpq_mpoly], budget: Budget, target: Sequence[Monomial] | None = None
+    equations: Sequence[fmpq_mpoly],
+    budget: Budget,
+    target: Sequence[Monomial] | None = None,
+    based: int = 0,
 ) -> TracedBasis:
     """The reduced Groebner basis of some polynomials; raises `Undecided` at the end of the budget.
 
     target: the leading monomials of the ideal, where they are known: when all are there no more pairs are
-    tried.
+    tried.  based: so many of the first equations hold a Groebner basis, and have no pairs of their own.
     """
     work = _Work(list(equations), budget, None if target is None else set(target))
-    work.run()
+    work.run(based)
     return work.reduced()
 
 
@@ -50,10 +54,13 @@ class _Work:
         self.leading: dict[int, Monomial] = {}
         self.pairs: list[tuple[int, int, Monomial]] = []
 
-    def run(self) -> None:
+    def run(self, based: int) -> None:
         """All pairs, those with the smallest least common multiple first, until none is left."""
         waiting = sorted((k for k in range(self.given) if self.pool[k]), key=lambda k: _size(self._lead(k)))
-        for k in waiting:
+        for k in (k for k in waiting if k < based):
+            if not any(divides(m, self._lead(k)) for m in self.leading.values()):
+                self.leading[k] = self._lead(k)
+        for k in (k for k in waiting if k >= based):
             self._reduce([k])
         while self.pairs and not self._reached():
             self.budget.check("a Groebner basis for a certificate")
@@ -66,7 +73,7 @@ class _Work:
 
     def _reached(self) -> bool:
         leading = list(self.leading.values())
-        return self.target is not None and all(any(_divides(m, t) for m in leading) for t in self.target)
+        return self.target is not None and all(any(divides(m, t) for m in leading) for t in self.target)
 
     def _divided(self, f: fmpq_mpoly, places: Sequence[int]) -> tuple[fmpq_mpoly, list[int]]:
         """The remainder, and the divisors that were used for it."""
@@ -100,18 +107,19 @@ class _Work:
         kept = [
             (i, j, m)
             for i, j, m in self.pairs
-            if not _divides(lead, m) or m in (_lcm(self.leading[i], lead), _lcm(self.leading[j], lead))
+            if not divides(lead, m) or m in (_lcm(self.leading[i], lead), _lcm(self.leading[j], lead))
         ]
         candidates = {k: _lcm(m, lead) for k, m in self.leading.items()}
         chosen: dict[Monomial, int] = {}
+        least = {*minimal(candidates.values())}
         for k, m in candidates.items():
-            if not any(other != m and _divides(other, m) for other in candidates.values()):
+            if m in least:
                 before = chosen.setdefault(m, k)
                 if _coprime(self.leading[k], lead) and not _coprime(self.leading[before], lead):
                     chosen[m] = k
         kept += [(k, new, m) for m, k in chosen.items() if not _coprime(self.leading[k], lead)]
         # what the new one divides is needed by pairs only, and reduces nothing any more
-        for k in [k for k, m in self.leading.items() if _divides(lead, m)]:
+        for k in [k for k, m in self.leading.items() if divides(lead, m)]:
             if not any(k in pair[:2] for pair in kept):
                 del self.leading[k]
         self.pairs = kept
@@ -119,18 +127,18 @@ class _Work:
 
     def reduced(self) -> TracedBasis:
         """The minimal ones, each reduced by the others, and the steps without those that nothing needs."""
-        minimal: list[int] = []
+        kept: list[int] = []
         for k in sorted(self.leading, key=lambda k: _size(self.leading[k])):
-            if not any(_divides(self.leading[other], self.leading[k]) for other in minimal):
-                minimal.append(k)
-        for at, k in enumerate(minimal):
-            others = [other for other in minimal if other != k]
+            if not any(divides(self.leading[other], self.leading[k]) for other in kept):
+                kept.append(k)
+        for at, k in enumerate(kept):
+            others = [other for other in kept if other != k]
             rest, used = self._divided(self.pool[k], others)
             if used:
                 self.pool.append(primitive(rest))
                 self.steps.append(([k], used))
-                minimal[at] = len(self.pool) - 1
-        needed = set(minimal)
+                kept[at] = len(self.pool) - 1
+        needed = set(kept)
         for place in range(len(self.pool) - 1, self.given - 1, -1):
             if place in needed:
                 of, used = self.steps[place - self.given]
@@ -146,16 +154,12 @@ class _Work:
             for place, (of, used) in enumerate(self.steps, self.given)
             if place in needed
         ]
-        return TracedBasis(steps, [renamed[k] for k in minimal], tuple(self.pool[k] for k in minimal))
+        return TracedBasis(steps, [renamed[k] for k in kept], tuple(self.pool[k] for k in kept))
 
 
 def _size(m: Monomial) -> tuple[int, Monomial]:
     """The place of a monomial in the graded reverse lexicographic order."""
     return sum(m), tuple(-e for e in reversed(m))
-
-
-def _divides(a: Monomial, b: Monomial) -> bool:
-    return all(x <= y for x, y in zip(a, b, strict=True))
 
 
 def _lcm(a: Monomial, b: Monomial) -> Monomial:

@@ -6,15 +6,19 @@ Source: unique factorisation; modulo the equations of a set by remainders.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import product
 from typing import Any
 
 from flint import fmpq, fmpq_mpoly
 
 from singsym.certificates.checker.polynomials import determinant, primitive, remainder
 from singsym.certificates.checker.sets import RealSet
+from singsym.effort.budget import Undecided, current
 
 MOST_TERMS = 20_000
 """Determinants with more terms are not taken apart."""
+HIGHEST_POWER, LONGEST_PRODUCT = 4, 100_000
+"""Of units, and of what vanishes by a power; products of more terms are not reduced."""
 LARGEST = 6
 """Larger determinants are expanded modulo the equations only."""
 
@@ -48,6 +52,33 @@ def _form(scale: fmpq, places: list[int]) -> dict[str, Any]:
     return {"units": places} | ({} if scale == 1 else {"scale": str(scale)})
 
 
+def cancelled(f: fmpq_mpoly, at: RealSet) -> dict[str, Any] | None:
+    """`units` and `power` as of the rule `cancel`, where some show that a polynomial vanishes on the set.
+
+    Its powers alone, then times powers of one unit, then of all of them.
+    """
+    one, places = at.context.constant(1), range(len(at.units))
+    ways = [[place] for place in places] + ([[*places]] if len(places) > 1 else [])
+    powers = range(1, 2 if f.is_constant() else HIGHEST_POWER + 1)
+    for way, count in [([], 1), *product(ways, range(1, HIGHEST_POWER + 1))]:
+        found = one
+        for factor in (at.units[place] for place in way * count):
+            found = _times(found, factor, at)
+        for power in powers:
+            found = _times(found, f, at)
+            if not found:
+                return {"units": way * count, "power": power}
+    return None
+
+
+def _times(f: fmpq_mpoly, g: fmpq_mpoly, at: RealSet) -> fmpq_mpoly:
+    """A product as the checker reduces it; raises `Undecided` where it is long."""
+    current().check("what vanishes on a set for a certificate")
+    if len(f) * len(g) > LONGEST_PRODUCT:
+        raise Undecided("products of units are too long")
+    return remainder(f * g, at.equations)
+
+
 def spellings(
     rows: Sequence[Sequence[fmpq_mpoly]], at: RealSet, known: Sequence[fmpq_mpoly]
 ) -> Iterator[fmpq_mpoly]:
@@ -60,10 +91,10 @@ def spellings(
     if not short:
         return
     yield short
-    for product in known:
-        other = remainder(product, at.equations)
+    for multiple in known:
+        other = remainder(multiple, at.equations)
         if other and other * short.leading_coefficient() == short * other.leading_coefficient():
-            yield product * (short.leading_coefficient() / other.leading_coefficient())
+            yield multiple * (short.leading_coefficient() / other.leading_coefficient())
     if len(rows) <= LARGEST and sum(len(e) for row in rows for e in row) < MOST_TERMS // 100:
         yield determinant(rows, [])
 

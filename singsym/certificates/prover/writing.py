@@ -13,7 +13,7 @@ from typing import Any
 
 from singsym.certificates.checker.sets import statement
 from singsym.certificates.checker.verification import FORMAT
-from singsym.certificates.prover.proof import Hints, prove
+from singsym.certificates.prover.proof import WHOLE, Hints, prove
 from singsym.classes.result import Classification, ClassResult
 from singsym.classes.taxonomy.types import feasible_classes
 from singsym.conditions.conditions import Conditions, conditions
@@ -35,8 +35,8 @@ class Certificate:
         return target
 
 
-def certificate(result: Classification) -> Certificate:
-    """The certificate of a classification, with a proof of as much of its table as is found.
+def certificate(result: Classification, seconds: float = WHOLE) -> Certificate:
+    """The certificate of a classification, with a proof of as much of its table as is found in so much work.
 
     >>> from singsym.classes.classify import classify
     >>> from singsym.mechanism import load
@@ -49,7 +49,7 @@ def certificate(result: Classification) -> Certificate:
     claims = [_claim(c) for c in result.classes if c.types in possible]
     data = statement_data(result.equation)
     about = statement(data)
-    lines = prove(about, _hints(result, conditions(result.equation)))
+    lines = prove(about, _hints(result, conditions(result.equation)), seconds)
     return Certificate(({"format": FORMAT, "name": name, "claims": claims}, data, *lines))
 
 

@@ -126,7 +126,7 @@ def _shown(proof: Proof, number: int, rule: str) -> str:
             said.append(f"{counted(found.points, 'real point')} {types}")
             continue
         bounds = f"dimension {found.high}" if found.low == found.high else f"dimension at most {found.high}"
-        parts = "" if found.components is None else f", {counted(found.components, 'component')}"
+        parts = "" if found.components is None else f", {counted(len(found.components), 'component')}"
         said.append(f"{types}, {bounds}{parts}")
     said = said or ["none of them real and allowed"] * (rule == "points")
     return f": {'; '.join(said)}" if said else ""

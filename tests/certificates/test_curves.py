@@ -1,0 +1,144 @@
+"""Curves of a row in certificates: those that meet are one piece, those without real points are none.
+
+Source: singsym's own; what is right is derived by hand in the docstring of each test.
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from singsym.certificates.checker.curves import components
+from singsym.certificates.checker.polynomials import Rejected
+from singsym.certificates.checker.sets import RealSet, statement
+from singsym.certificates.checker.table import Finding, Row, contradicted, proven_row, unproven
+from singsym.certificates.checker.verification import FORMAT, verify
+from singsym.certificates.prover.loops import curve_leaf
+from singsym.certificates.prover.proof import Hints, based, prove
+from singsym.certificates.prover.writing import Certificate
+
+pytestmark = pytest.mark.engines
+Lines = list[dict[str, Any]]
+
+
+def data(variables: list[str], *equations: str) -> dict[str, Any]:
+    """T = 0 A: all configurations are of the types RI, IO."""
+    empty: dict[str, Any] = {key: [] for key in ("constants", "exclusions", "positive", "nonnegative")}
+    own = {"variables": variables, "equations": list(equations), "N": 1, "n": 1}
+    return {**empty, **own, "L": [["1", "0"]], "roles": ["output", "input"]}
+
+
+def numbers(lines: Lines, about: dict[str, Any], path: Path) -> tuple[int | None, int | None]:
+    """Components of the row, of each curve by itself and of all together."""
+    header = {"format": FORMAT, "name": "own", "claims": [{"types": "RI, IO", "occurs": True}]}
+    found = verify(Certificate((header, about, *lines)).write(path))
+    return next((row.components, row.together) for row in found.proven if row.types == "RI, IO")
+
+
+def two_circles(shift: int) -> dict[str, Any]:
+    """x^2 + y^2 = 1, and the same circle with its centre at (shift, 0)."""
+    s, ss = 2 * shift, shift * shift - 1
+    product = f"x^4 + 2*x^2*y^2 + y^4 - {s}*x^3 - {s}*x*y^2 + {ss}*x^2 + {ss}*y^2 - x^2 - y^2 + {s}*x - {ss}"
+    return data(["x", "y"], product)
+
+
+@pytest.mark.parametrize(("shift", "together"), [(1, 1), (3, 2), (2, 1)])
+def test_two_circles(shift: int, together: int, tmp_path: Path) -> None:
+    """Centres 1 apart: they meet at (1/2, +-sqrt(3)/2); 3 apart: they do not; 2: they touch at (1, 0)."""
+    about = two_circles(shift)
+    lines = prove(statement(about), Hints(curves=True))
+    assert numbers(lines, about, tmp_path / "circles") == (2, together)
+
+
+def test_curves_that_are_counted_by_themselves_may_meet(tmp_path: Path) -> None:
+    """Circles that meet are two by themselves and one together; without their points that is not known."""
+    about = two_circles(1)
+    lines = copy.deepcopy(prove(statement(about), Hints(curves=True)))
+    assert numbers(lines, about, tmp_path / "circles") == (2, 1)
+    del _curve_with_meetings(lines)["meets"]
+    assert numbers(lines, about, tmp_path / "circles") == (2, None)
+
+
+def _curve_with_meetings(lines: Lines) -> dict[str, Any]:
+    return next(line["curve"] for line in lines if line.get("curve", {}).get("meets"))
+
+
+def _dropped(curve: dict[str, Any]) -> None:
+    del curve["meets"]
+
+
+def _one_point_less(curve: dict[str, Any]) -> None:
+    """Of the points (1/2, y) with y^2 = 3/4 those with y = 1/2 alone, of which there are none."""
+    entry = curve["meets"][0]
+    entry |= {"minimal": ["-1/2", "1"], "coordinates": {"x": ["1/2"], "y": ["1/2"]}, "form": "y"}
+
+
+def _of_another_line(curve: dict[str, Any]) -> None:
+    curve["meets"][0]["line"] += 1
+
+
+def _steps_to_nothing(curve: dict[str, Any]) -> None:
+    curve["meets"][0] |= {"steps": [], "equations": [0]}
+
+
+@pytest.mark.parametrize("damage", [_dropped, _one_point_less, _of_another_line, _steps_to_nothing])
+def test_circles_that_meet_are_not_counted_apart(
+    damage: Callable[[dict[str, Any]], None], tmp_path: Path
+) -> None:
+    """Without all their points in common nothing is known of the number of pieces, or it is refused."""
+    about = two_circles(1)
+    lines = copy.deepcopy(prove(statement(about), Hints(curves=True)))
+    damage(_curve_with_meetings(lines))
+    try:
+        assert numbers(lines, about, tmp_path / "circles") == (2, None)
+    except Rejected:
+        assert damage is not _dropped
+
+
+def over_a_circle(constant: str) -> RealSet:
+    """z^2 = x y - c over the circle x^2 + y^2 = 1, on which x y is at most 1/2."""
+    return statement(data(["x", "y", "z"], "x^2 + y^2 - 1", f"z^2 - x*y + {constant}")).whole
+
+
+def test_a_curve_without_real_points() -> None:
+    """c = 3/5 leaves none, c = 2/5 two ovals: the proof of the first is none of the second."""
+    empty = over_a_circle("3/5")
+    leaf = curve_leaf(empty, {}, based)
+    assert leaf is not None
+    assert leaf["loops"] == []
+    assert components(empty, leaf) == []
+    ovals = over_a_circle("2/5")
+    assert curve_leaf(ovals, {}, based) is None
+    with pytest.raises(Rejected):
+        components(ovals, leaf)
+    for place in range(len(leaf["critical"]["factors"])):
+        wrong = copy.deepcopy(leaf)
+        del wrong["critical"]["factors"][place]
+        with pytest.raises(Rejected):
+            components(empty, wrong)
+
+
+def test_a_curve_that_may_be_of_two_types_counts_for_neither() -> None:
+    """Its loops may all be of the other types."""
+    at = over_a_circle("2/5")
+    sure = Finding(at, frozenset({"RI, IO"}), None, 1, 1, [[]], line=3)
+    doubtful = Finding(at, frozenset({"RI, IO", "RO, II"}), None, 1, 1, [[]], line=4)
+    assert proven_row("RI, IO", [sure]).components == 1
+    assert proven_row("RI, IO", [sure, doubtful]).components is None
+
+
+@pytest.mark.parametrize(
+    ("claimed", "contradiction", "proven"),
+    [(2, False, True), (4, False, True), (3, False, False), (5, True, False), (1, True, False)],
+)
+def test_a_claim_counts_curves_by_themselves_or_together(
+    claimed: int, contradiction: bool, proven: bool
+) -> None:
+    """Of four curves that are two together: both numbers are proven, three is neither that nor wrong."""
+    claim, row = Row("RI, IO", True, 1, None, claimed), Row("RI, IO", True, 1, None, 4, 2)
+    assert contradicted(claim, row) == contradiction
+    assert contradiction or (not unproven(claim, row)) == proven
