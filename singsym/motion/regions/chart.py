@@ -56,7 +56,7 @@ def _region(motions: FreeMotions, flood: Flood, nodes: list[int]) -> Region | No
             met[k] += 1
     for node in sorted(nodes, key=flood.margin, reverse=True)[:_TRIES]:
         place = motions.place(flood.points[node])
-        signs = () if place is None else motions.borders.signs(place.near.box)
+        signs = () if place is None else motions.borders.signs(place.near)
         if place is not None and all(signs):
             return Region(
                 *motions.named(place.point),

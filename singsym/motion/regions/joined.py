@@ -57,7 +57,7 @@ def joined(one: Analysis, other: Analysis, *, seed: int = 0) -> Joined:
     >>> arm = load("2r")
     >>> up, far, down = (at(arm, {"joints": {"A": a, "B": b}}) for a, b in ((0, 1), (2, 3), (0, -1)))
     >>> str(joined(up, far).verdict)
-    'yes (certified): a motion without a border is proven, in 8 boxes'
+    'yes (certified): a motion without a border is proven, in 4 boxes'
     >>> joined(up, down).apart.words
     'A, B, C collinear'
     """
@@ -104,7 +104,7 @@ def _sign_apart(motions: FreeMotions, first: Place, last: Place) -> Border | Non
     region; so it keeps its sign there.
     """
     borders = motions.borders
-    signs = [borders.signs(place.near.box) for place in (first, last)]
+    signs = [borders.signs(place.near) for place in (first, last)]
     for border, a, b in zip(borders.all, signs[0], signs[1], strict=True):
         if a * b < 0:
             return border
