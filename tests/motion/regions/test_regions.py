@@ -74,6 +74,18 @@ def test_a_limit_is_a_barrier_and_no_singularity() -> None:
     assert any("barriers" in block for block in regions_page("s", found) if isinstance(block, str))
 
 
+def test_a_slide_that_keeps_its_length_positive_has_arcs() -> None:
+    """From AC = 3, where cos A = 1/6, to the dead point AC = 4, with the crank up or down."""
+    limit = Limit(sympy.Symbol("length(P)"), low=sympy.Integer(3))
+    found = regions(replace(load("slider-crank"), limits=(limit,)))
+    assert found.verdict.is_yes
+    assert len(found.regions) == 2
+    for region in found.regions:
+        assert [b.is_singular for b in region.ends] == [True, False]
+        angles = np.abs(np.arctan2(region.points[:, 1], region.points[:, 0]))
+        assert angles.max() == pytest.approx(math.acos(1 / 6), abs=1e-6)
+
+
 def test_the_arm_of_two_links_has_two_regions() -> None:
     """The determinant is a multiple of sin B: the halves B > 0 and B < 0 of the torus."""
     found = regions(load("2r"), grid=24)
