@@ -269,7 +269,7 @@ def point_on(equation: VelocityEquation, locus: Sequence[Polynomial], near: Floa
     As many coordinates as stay free are held at the numerical values.
     """
     space = equation.space
-    equations = (*space.equations, *space.ring.relations, *locus)
+    equations = tuple(dict.fromkeys((*space.equations, *space.ring.relations, *locus)))
     slopes = CompiledMap.balanced(equations, space.ring).jacobian(near)
     constants = [space.ring.index(c.name) for c in space.ring.constants]
     rank = numerical_rank(slopes, 1e-9).rank

@@ -18,10 +18,12 @@ from singsym.effort.budget import Undecided
 from singsym.effort.verdict import Verdict
 from singsym.kinematics.sampling import sample_configurations
 from singsym.mechanism.problems import MechanismError, Problem
+from singsym.motion.enclosures import sure_sign
 from singsym.motion.regions.arcs import Arcs
 from singsym.motion.regions.borders import Border, borders, input_space, point_of
 from singsym.motion.regions.flood import SAMPLES, Flood, axes_of
 from singsym.motion.regions.free_motion import OUTSIDE, FreeMotions, Place
+from singsym.motion.regions.walls import Wall, wall
 from singsym.motion.trajectory import Trajectory
 from singsym.polynomials.compiled_map import Floats
 
@@ -82,7 +84,19 @@ def joined(one: Analysis, other: Analysis, *, seed: int = 0) -> Joined:
         if boxes:
             reason = f"a motion without a border is proven, in {boxes} boxes"
             return Joined(Verdict.yes("certified", reason=reason), path, boxes)
+    between = _walled(motions, first, last)
+    if between is not None:
+        return Joined(Verdict.no(between.certainty, reason=str(between)))
     return Joined(Verdict.undecided("no path was found and proven, and no sign tells them apart"))
+
+
+def _walled(motions: FreeMotions, first: Place, last: Place) -> Wall | None:
+    """A wall between two places with the same signs."""
+    between = wall(motions, motions.borders.signs(first.near), first.point[None], last.point[None])
+    if between is None:
+        return None
+    sides = [sure_sign(between.polynomial, place.near) for place in (first, last)]
+    return between if sides[0] * sides[1] < 0 else None
 
 
 def _on_arcs(motions: FreeMotions, first: Place, last: Place) -> Verdict:

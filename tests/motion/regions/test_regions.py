@@ -125,6 +125,37 @@ def test_the_five_bar_has_eight_regions() -> None:
     assert np.abs(np.array(cells) - sorted(counts)).max() <= 3
 
 
+def test_regions_with_the_same_signs_are_apart_by_a_plane() -> None:
+    """Two spherical cranks and two rods: both planes are those of D at the height of the axis A.
+
+    The configurations on such a plane are worked out in closed form here: none has the signs of both.
+    """
+    mechanism = load("spherical-5r")
+    found = regions(mechanism, grid=24)
+    assert len(found.regions) == found.at_least == 6
+    assert len({r.signs for r in found.regions}) == 4
+    assert found.verdict.is_undecided
+    linkage = numeric(mechanism)
+
+    def signs(q: np.ndarray) -> tuple[int, ...]:
+        return tuple(int(np.sign(x)) for label in ("4", "5") for x in linkage.condition(label, q))
+
+    assert all(signs(np.array([*r.values.values()])) == r.signs for r in found.regions)
+    for plane, sides in found.walls:
+        one, other = sides.index(1), sides.index(-1)
+        assert found.apart(one, other).is_yes
+        assert found.regions[one].signs == found.regions[other].signs == plane.signs
+        (name,) = plane.polynomial.variables
+        assert name == "Dz"
+        # B and D are unit vectors at 60 degrees from the axes z and x, C is perpendicular to both
+        for angle, side, way in product(np.linspace(-math.pi, math.pi, 101), (1, -1), (1, -1)):
+            b = np.array([math.cos(angle) * 3**0.5 / 2, math.sin(angle) * 3**0.5 / 2, 0.5])
+            d = np.array([0.5, side * 3**0.5 / 2, 0.0])
+            c = way * np.cross(b, d) / np.linalg.norm(np.cross(b, d))
+            q = np.concatenate([b, d, c, [3**0.5]])
+            assert signs(q) != plane.signs
+
+
 def test_larger_mobilities_are_refused_with_what_there_is_for_them() -> None:
     with pytest.raises(MechanismError, match="free box"):
         regions(load("3rpr"))
