@@ -19,8 +19,8 @@ from singsym.mechanism.problems import MechanismError, Problem
 from singsym.motion.enclosures import sure_sign
 from singsym.motion.regions.flood import SAMPLES, Flood, axes_of
 from singsym.motion.regions.free_motion import FreeMotions
-from singsym.motion.regions.result import Region, Regions
-from singsym.motion.regions.walls import Wall, wall
+from singsym.motion.regions.result import Region, Regions, Wall
+from singsym.motion.regions.walls import wall
 
 _CORNER = 4
 """So few cells are a corner that a step went around, not a region."""

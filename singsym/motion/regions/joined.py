@@ -23,7 +23,8 @@ from singsym.motion.regions.arcs import Arcs
 from singsym.motion.regions.borders import Border, borders, input_space, point_of
 from singsym.motion.regions.flood import SAMPLES, Flood, axes_of
 from singsym.motion.regions.free_motion import OUTSIDE, FreeMotions, Place
-from singsym.motion.regions.walls import Wall, wall
+from singsym.motion.regions.result import Wall
+from singsym.motion.regions.walls import wall
 from singsym.motion.trajectory import Trajectory
 from singsym.polynomials.compiled_map import Floats
 

@@ -15,7 +15,7 @@ from singsym.effort.verdict import Certainty, Verdict
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.motion.arithmetic import Array
 from singsym.motion.regions.borders import Border
-from singsym.motion.regions.walls import Wall
+from singsym.polynomials import Polynomial
 from singsym.polynomials.compiled_map import Floats
 
 
@@ -36,6 +36,21 @@ class Region:
     ends: tuple[Border, ...]
     points: Floats
     cells: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Wall:
+    """A polynomial that vanishes at no configuration at which the borders' polynomials have these signs.
+
+    Lemma: in a region it keeps its sign, for the region is connected and has these signs throughout.
+    """
+
+    polynomial: Polynomial
+    signs: tuple[int, ...]
+    certainty: Certainty
+
+    def __str__(self) -> str:
+        return f"{self.polynomial.short_text(4)} vanishes at no configuration with the signs of both"
 
 
 @dataclass(frozen=True, eq=False)

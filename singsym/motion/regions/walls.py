@@ -7,7 +7,6 @@ whose arcs between borders are all looked at.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
@@ -18,6 +17,7 @@ from singsym.effort.budget import Budget, Undecided
 from singsym.effort.verdict import Certainty, weakest
 from singsym.motion.enclosures import BITS, point_on
 from singsym.motion.regions.free_motion import FreeMotions
+from singsym.motion.regions.result import Wall
 from singsym.polynomials import Polynomial
 from singsym.polynomials.compiled_map import Floats
 from singsym.varieties.real.curves.cuts import CutCurve
@@ -28,21 +28,6 @@ _PLANES = 3
 """So many planes are tried for two regions."""
 _SHARES = (0.5, 0.3, 0.7, 0.1, 0.9)
 _DENOMINATORS = (2, 10, 100, 10000)
-
-
-@dataclass(frozen=True, eq=False)
-class Wall:
-    """A polynomial that vanishes at no configuration at which the borders' polynomials have these signs.
-
-    Lemma: in a region it keeps its sign, for the region is connected and has these signs throughout.
-    """
-
-    polynomial: Polynomial
-    signs: tuple[int, ...]
-    certainty: Certainty
-
-    def __str__(self) -> str:
-        return f"{self.polynomial.short_text(4)} vanishes at no configuration with the signs of both"
 
 
 def wall(motions: FreeMotions, signs: tuple[int, ...], one: Floats, other: Floats) -> Wall | None:
