@@ -109,6 +109,7 @@ def test_what_cannot_be_asked_is_undecided() -> None:
     (found,) = solve(load("3rrr"), "cusps 5", cache=False)
     assert found.undecided
     assert "T.w" in found.doubts[0]
+    assert "not told apart" in found.condition.types
 
 
 def test_other_labels_are_refused() -> None:
