@@ -184,7 +184,7 @@ class Sheet:
         by_given = slopes[:, self._given] @ tilt[count:, : len(given)]
         tilt[:count] = np.hstack([-np.linalg.solve(square, by_given), right.T])
         spans = (*(arb(0, value.rad()) for value in given), *[arb(0)] * count)
-        box = TiltedBox(tuple(centre), arb_mat(tilt.tolist()), spans, tuple(rest))
+        box = TiltedBox(tuple(centre), arb_mat(tilt.tolist()), spans, tuple(rest), len(given))
         return arb_mat((left / sizes).T.tolist()), box
 
     def _krawczyk(self, inverse: arb_mat, box: TiltedBox) -> list[arb]:

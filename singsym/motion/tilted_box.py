@@ -24,13 +24,15 @@ class TiltedBox:
     """The points centre + tilt t + r, where the parameters t are in `spans` and r is in `rest`.
 
     centre: (coordinates,), exact; tilt: (coordinates, parameters), exact; spans: balls around 0;
-    rest: balls that hold 0, one a coordinate.
+    rest: balls that hold 0, one a coordinate; squared: of so many parameters, the first, products are kept in
+    forms, those of the others are bounded.
     """
 
     centre: Box
     tilt: arb_mat
     spans: Box
     rest: Box
+    squared: int
 
     @cached_property
     def hull(self) -> Box:
@@ -43,63 +45,73 @@ class TiltedBox:
         return tuple(k for k, span in enumerate(self.spans) if span.rad() > 0)
 
     @cached_property
+    def _pairs(self) -> list[tuple[int, int, arb, bool]]:
+        """Any two of these, by their places among them, their product, and whether it is kept."""
+        found = []
+        for one, other in combinations_with_replacement(range(len(self._wide)), 2):
+            first, second = self._wide[one], self._wide[other]
+            most = (self.spans[first].abs_upper() * self.spans[second].abs_upper()).upper()
+            product = arb(0).union(most) if one == other else arb(0, most)
+            found.append((one, other, product, second < self.squared))
+        return found
+
+    @cached_property
     def _along(self) -> Box:
         rows = range(len(self.rest))
         return tuple(sum((self.tilt[i, k] * self.spans[k] for k in self._wide), arb(0)) for i in rows)
 
     @cached_property
     def monomials(self) -> Box:
-        """What the coefficients of `form` belong to: 1, each t, each product of two; 1 for what is left."""
-        spans, squares = [self.spans[k] for k in self._wide], []
-        for one, other in combinations_with_replacement(range(len(spans)), 2):
-            product = spans[one].abs_upper() * spans[other].abs_upper()
-            squares.append(arb(0).union(product) if one == other else arb(0, product.upper()))
-        return (arb(1), *spans, *squares, arb(1))
+        """What the coefficients of `form` belong to: 1, 1 for what is left, each t, each product of two."""
+        spans = (self.spans[k] for k in self._wide)
+        return (arb(1), arb(1), *spans, *(product for *_, product, kept in self._pairs if kept))
 
     def form(self, polynomial: Polynomial) -> list[arb]:
         """Coefficients of `monomials` whose sum holds the values; of one sum the same t is meant in all.
 
         By Taylor's theorem: values and slopes at the centre, second derivatives on the hull, which is convex
-        and holds the centre.
+        and holds the centre.  Last coefficients that are zero may be left out.
         """
         places, slopes, seconds = _derivatives(polynomial)
-        first = [evaluate(s, self.centre) for s in slopes]
-        width = len(self._wide)
-        rest = sum((s * self.rest[i] for s, i in zip(first, places, strict=True)), arb(0))
+        found = [evaluate(polynomial, self.centre)]
         if not places:
-            return [evaluate(polynomial, self.centre), *[arb(0)] * (len(self.monomials) - 2), rest]
+            return found
+        first = [evaluate(s, self.centre) for s in slopes]
+        rest = sum((s * self.rest[i] for s, i in zip(first, places, strict=True)), arb(0))
+        own = arb_mat([[self.tilt[i, k] for k in self._wide] for i in places]) if self._wide else None
+        linear = [] if own is None else (arb_mat([first]) * own).entries()
+        if not seconds:
+            return [*found, rest, *linear]
         bends = [[evaluate(p, self.hull) for p in row] for row in seconds]
-        size = len(places)
-        bent = arb_mat([[bends[max(i, j)][min(i, j)] for j in range(size)] for i in range(size)])
-        left = arb_mat([[self.rest[i]] for i in places])
-        by_rest = bent * left
+        size = range(len(places))
+        bent = arb_mat([[bends[max(i, j)][min(i, j)] for j in size] for i in size])
+        by_rest = bent * arb_mat([[self.rest[i]] for i in places])
         for i, place in enumerate(places):
             rest += by_rest[i, 0] * (self._along[place] + self.rest[place] / 2)
-        if not width:
-            return [evaluate(polynomial, self.centre), rest]
-        own = arb_mat([[self.tilt[i, k] for k in self._wide] for i in places])
-        linear = arb_mat([first]) * own
+        if own is None:
+            return [*found, rest]
         square = own.transpose() * (bent * own)
-        pairs = combinations_with_replacement(range(width), 2)
-        products = [square[k, k] / 2 if k == m else (square[k, m] + square[m, k]) / 2 for k, m in pairs]
-        return [
-            evaluate(polynomial, self.centre),
-            *(linear[0, k] for k in range(width)),
-            *products,
-            rest,
-        ]
+        products = []
+        for one, other, product, kept in self._pairs:
+            part = square[one, one] / 2 if one == other else (square[one, other] + square[other, one]) / 2
+            if kept:
+                products.append(part)
+            else:
+                rest += part * product
+        return [*found, rest, *linear, *products]
 
     def combined(self, left: arb_mat, forms: Sequence[Sequence[Sequence[arb]]], right: arb_mat) -> arb_mat:
         """A ball matrix that holds left F right, of a matrix F of polynomials given by their forms."""
-        total = arb_mat(left.nrows(), right.ncols())
-        for k, monomial in enumerate(self.monomials):
-            total += left * arb_mat([[entry[k] for entry in row] for row in forms]) * right * monomial
+        total, zero = arb_mat(left.nrows(), right.ncols()), arb(0)
+        longest = max((len(entry) for row in forms for entry in row), default=0)
+        for k, monomial in enumerate(self.monomials[:longest]):
+            part = [[entry[k] if k < len(entry) else zero for entry in row] for row in forms]
+            total += left * arb_mat(part) * right * monomial
         return total
 
     def value(self, polynomial: Polynomial) -> arb:
         """A ball that holds the values of a polynomial."""
-        pairs = zip(self.form(polynomial), self.monomials, strict=True)
-        return sum((c * m for c, m in pairs), arb(0))
+        return sum((c * m for c, m in zip(self.form(polynomial), self.monomials, strict=False)), arb(0))
 
     def has_full_rank(self, matrix: Sequence[Sequence[Polynomial]]) -> bool:
         """Whether it is proven that a matrix has as large a rank as its size allows at each point.
@@ -125,8 +137,9 @@ class TiltedBox:
 def _derivatives(
     polynomial: Polynomial,
 ) -> tuple[tuple[int, ...], tuple[Polynomial, ...], tuple[tuple[Polynomial, ...], ...]]:
-    """The places of the variables, the slopes by them, and of the second derivatives the lower triangle."""
+    """The places of the variables, the slopes, and of second derivatives the lower triangle, unless zero."""
     names = polynomial.variables
     slopes = tuple(polynomial.derivative(name) for name in names)
     seconds = tuple(tuple(s.derivative(n) for n in names[: i + 1]) for i, s in enumerate(slopes))
-    return tuple(polynomial.ring.index(name) for name in names), slopes, seconds
+    curved = polynomial.total_degree > 1
+    return tuple(polynomial.ring.index(name) for name in names), slopes, seconds if curved else ()
