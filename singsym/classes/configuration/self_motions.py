@@ -58,8 +58,6 @@ class SelfMotion:
         if self.dimension == 0:
             return f"none with {rest}: null motions are infinitesimal only, the configuration is isolated"
         size = "a curve" if self.dimension == 1 else f"a set of dimension {self.dimension}"
-        if self.curve is not None and self.curve.value.closed:
-            size = "a closed curve"
         return f"finite with {rest}: {size} of configurations through this one"
 
 

@@ -11,6 +11,7 @@ import pytest
 from singsym.classes.configuration.self_motions import SelfMotion, self_motions
 from singsym.mechanism import Choice, load
 from singsym.output.motion.self_motion_page import self_motion_data, self_motion_page
+from singsym.output.page import Grid
 
 ARM = """
 name = "arm"
@@ -85,7 +86,8 @@ def test_the_curve_of_a_self_motion_is_traced() -> None:
     turned = np.unwrap(np.arctan2(*arm.T[::-1]))
     assert abs(turned[-1] - turned[0]) == pytest.approx(2 * np.pi, abs=1e-6)
     blocks = self_motion_page((found, still))
-    assert "a closed curve" in str(blocks[0])
+    assert isinstance(blocks[1], Grid)
+    assert "closed (certified)" in blocks[1].title
     assert self_motion_data((found, still))[0]["curve"]["closed"]
 
 
