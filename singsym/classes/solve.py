@@ -282,6 +282,7 @@ def _cusps(
         label=f"cusps {condition.label}",
         statement=f"{condition.statement}, its one null motion tangent",
         latex_statement=rf"{condition.latex_statement}\text{{, its one null motion tangent}}",
+        types=f"{condition.types}{_not_plain(found.equation.n)}",
         alternatives=None,
     )
     try:
@@ -297,6 +298,15 @@ def _cusps(
         resting = f"{tangent.types}; of dimension {whole}: self-motions, the {ROLES[condition.label]}s rest"
         solution = replace(solution, condition=replace(tangent, types=resting))
     return solution
+
+
+def _not_plain(n: int) -> str:
+    """What a tangent null motion is where it is not a cusp of a curve, as it is with n = 2."""
+    if n == 1:
+        return "; with n = 1 there are no cusps: these are dead points of a higher order"
+    if n > 2:
+        return f"; with n = {n} cuspidal edges, and in these worse points as swallowtails, not told apart"
+    return ""
 
 
 def _solution(

@@ -104,7 +104,7 @@ class Continuation:
         if box is None:
             return None
         last = self.box_at(end, end, self.near(end, middle))
-        if last is None or not (box.has(first, self.count) and box.has(last, self.count)):
+        if last is None or not (box.has(first) and box.has(last)):
             return None
         return MotionPiece(start, end, box, first, last)
 
@@ -120,7 +120,7 @@ class Continuation:
         point = None if own is None else self.box_at(start, start, self.near(start, near))
         if box is None or own is None or point is None:
             return None
-        return box if own.whole.has(point, self.count) and box.has(point, self.count) else None
+        return box if own.whole.has(point) and box.has(point) else None
 
     def middle(self, at: Enclosure) -> Floats:
         """The middle of a box, numerically."""
@@ -158,10 +158,10 @@ class Continuation:
         It vanishes once in a span that is sure, which is shorter than `exact`; in the others that is not
         decided.  Nowhere else.
         """
-        if sure_sign(polynomial, piece.box):
+        if sure_sign(polynomial, piece.whole):
             return
         if self._is_monotone(piece, polynomial):
-            signs = [sure_sign(polynomial, at.box) for at in (piece.first, piece.last)]
+            signs = [sure_sign(polynomial, at) for at in (piece.first, piece.last)]
             if signs[0] * signs[1] > 0:
                 return
             if signs[0] * signs[1] < 0:
@@ -199,8 +199,8 @@ class Continuation:
             middle = low + _SHARE * (high - low)
             near = self.near(middle, near)
             box = self.box_at(middle, middle, near)
-            on_it = box is not None and piece.whole.has(box, self.count)
-            found = sure_sign(polynomial, box.box) if box is not None and on_it else 0
+            on_it = box is not None and piece.whole.has(box)
+            found = sure_sign(polynomial, box) if box is not None and on_it else 0
             if not found:
                 break
             low, high = (middle, high) if found == sign else (low, middle)

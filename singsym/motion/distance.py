@@ -159,7 +159,7 @@ def clear_radius(equation: VelocityEquation, joint: Coordinates, point: Floats, 
                 for label, x, unit in zip(joint.labels, middle.tolist(), joint.units, strict=True)
             }
         found = sheet.over(values, point)
-        return found is not None and is_surely_regular(equation, conditions, found.box)
+        return found is not None and is_surely_regular(equation, conditions, found)
 
     low, high = 0.0, most
     radius = most

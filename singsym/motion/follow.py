@@ -233,7 +233,7 @@ class _Following:
             if not sure and self.start < start and end < self.end:
                 beside = self.exact * np.array([-1.0, 1.0]) + (start, end)
                 boxes = [self.way.on_motion(pieces, t, t, self.way.near(t, near)) for t in beside.tolist()]
-                signs = [0 if box is None else sure_sign(polynomial, box.box) for box in boxes]
+                signs = [0 if box is None else sure_sign(polynomial, box) for box in boxes]
                 sure = signs[0] * signs[1] < 0
             box = self.way.on_motion(pieces, start, end, near) if sure else None
             defects = None if box is None else certified_defects(self.equation, box.box, locus.bounds)

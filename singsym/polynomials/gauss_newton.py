@@ -23,7 +23,7 @@ class Map(Protocol):
         """One for each variable."""
 
     def __call__(self, points: Floats) -> tuple[Floats, Floats]:
-        """Values (equations,) and slopes (equations, variables) at a point."""
+        """Values (equations,) and slopes (equations, variables) at a point, or at many: an axis ahead."""
 
 
 # damping over the squared norm of the values, and its least over the squared norm of the slopes
@@ -49,12 +49,13 @@ class Restricted:
     def __call__(self, points: Floats) -> tuple[Floats, Floats]:
         """Values and slopes by the free coordinates, at values of these."""
         values, slopes = self.system(self.filled(points))
-        return values, slopes[:, self.free]
+        return values, slopes[..., self.free]
 
     def filled(self, x: Floats) -> Floats:
-        """The whole point with these values of the free coordinates."""
-        point = self.whole.copy()
-        point[self.free] = x
+        """The whole point with these values of the free coordinates, or one a row."""
+        point = np.empty((*x.shape[:-1], self.whole.shape[-1]))
+        point[...] = self.whole
+        point[..., self.free] = x
         return point
 
 
@@ -132,24 +133,28 @@ def approach(system: CompiledMap, starts: Floats, steps: int = 60) -> list[Float
 
 
 def least_squares(system: Map, start: Floats, steps: int = 80) -> Floats:
-    """A point near `start` where the sum of squared values is least, which need not be zero.
+    """Points near `start`, one or one a row, where the sum of squared values is least, if not zero.
 
-    Damped steps, of which those that go up are not taken (Levenberg and Marquardt).
+    Damped steps, of which those that go up are not taken (Levenberg and Marquardt); all starts take theirs
+    together.
     """
-    x, sizes, damping = start, system.sizes, _FIRST
-    values, slopes = system(x)
+    points, sizes = np.array(np.atleast_2d(start)), system.sizes
+    values, slopes = system(points)
+    damping, moving = np.full(len(points), _FIRST), np.arange(len(points))
     for _ in range(steps):
-        slope = slopes * sizes
-        normal = slope.T @ slope
-        step = np.linalg.solve(normal + damping * np.eye(len(normal)), slope.T @ values)
-        trial = x - sizes * step
+        if not moving.size:
+            break
+        slope = slopes[moving] * sizes
+        turned = slope.transpose(0, 2, 1)
+        normal = turned @ slope + damping[moving, None, None] * np.eye(len(sizes))
+        step = np.linalg.solve(normal, turned @ values[moving, :, None])[..., 0]
+        trial = points[moving] - sizes * step
         fresh, fresh_slopes = system(trial)
-        if fresh @ fresh <= values @ values:
-            x, values, slopes, damping = trial, fresh, fresh_slopes, max(damping / 8, _LEAST)
-            if np.abs(step).max(initial=0.0) < _ROUNDING:
-                break
-        else:
-            damping *= 6
-            if damping > _MOST:
-                break
-    return x
+        lower = (fresh**2).sum(axis=1) <= (values[moving] ** 2).sum(axis=1)
+        taken, left = moving[lower], moving[~lower]
+        points[taken], values[taken], slopes[taken] = trial[lower], fresh[lower], fresh_slopes[lower]
+        damping[taken] = np.maximum(damping[taken] / 8, _LEAST)
+        damping[left] *= 6
+        ended = np.where(lower, np.abs(step).max(axis=1, initial=0.0) < _ROUNDING, damping[moving] > _MOST)
+        moving = moving[~ended]
+    return points.reshape(start.shape)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from singsym.classes.solve import solve
-from singsym.mechanism import load
+from singsym.mechanism import load, loads
 
 
 def scanned(d2: float, d3: float, d4: float, r2: float) -> list[tuple[float, float]]:
@@ -64,11 +64,52 @@ def test_a_mechanism_with_two_assemblies_has_none() -> None:
     assert "self-motions" in even.condition.types
 
 
+SLICE = """
+name = "slice"
+inputs = ["P2", "P3"]
+output = { velocity = "B2" }
+
+[links]
+ground = { points = { A1 = [0, 0], A2 = [15.91, 0], A3 = [0, 10] } }
+platform = { sides = { B1B2 = 17.04, B2B3 = 16.54, B3B1 = 20.84 } }
+A1B1 = 14.98
+cylinder2 = { points = { A2 = [0, 0] }, axes = { u2 = [1, 0] } }
+rod2 = { points = { B2 = [0, 0] }, axes = { u2 = [1, 0] } }
+cylinder3 = { points = { A3 = [0, 0] }, axes = { u3 = [1, 0] } }
+rod3 = { points = { B3 = [0, 0] }, axes = { u3 = [1, 0] } }
+
+[joints]
+A1 = "R"
+B1 = "R"
+A2 = "R"
+P2 = { type = "P", links = ["cylinder2", "rod2"], at = ["A2", "B2"], axis = "u2" }
+B2 = "R"
+A3 = "R"
+P3 = { type = "P", links = ["cylinder3", "rod3"], at = ["A3", "B3"], axis = "u3" }
+B3 = "R"
+
+[exclusions]
+"leg 2 of length zero" = { coincide = ["A2", "B2"] }
+"leg 3 of length zero" = { coincide = ["A3", "B3"] }
+"""
+
+
+@pytest.mark.engines
+def test_cusps_of_a_platform_at_one_leg_length() -> None:
+    """Row 11: the 3-RPR of Innocenti and Parenti-Castelli has six where leg 1 is 14.98 long."""
+    (found,) = solve(loads(SLICE), "cusps 4", cache=False)
+    assert not found.undecided
+    assert sum(piece.points or 0 for piece in found.pieces) == 6
+    places = [w.joints for piece in found.pieces for w in piece.witnesses]
+    assert len({round(float(j["P2"]), 4) for j in places}) == len(places)
+
+
 def test_what_cannot_be_asked_is_undecided() -> None:
     """The output has a rotation of the platform, of which the coordinates have no angle."""
     (found,) = solve(load("3rrr"), "cusps 5", cache=False)
     assert found.undecided
     assert "T.w" in found.doubts[0]
+    assert "not told apart" in found.condition.types
 
 
 def test_other_labels_are_refused() -> None:

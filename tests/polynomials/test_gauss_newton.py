@@ -81,3 +81,12 @@ def test_least_squares_end_where_no_zero_is(k: Fraction) -> None:
     system = CompiledMap((x, x - k, y - 2 * k), R, [float(k)] * 3, [float(k)] * 3)
     end = least_squares(system, np.array([50.0, -30.0, 1.0]) * float(k))
     assert end == pytest.approx(np.array([0.5, 2.0, 1.0]) * float(k), rel=1e-6)
+
+
+def test_least_squares_of_many_starts_are_those_of_each() -> None:
+    """Rows take their own steps, as one start does."""
+    system = CompiledMap((x**2 + y**2 - 4, x * y - 1, x - 3), R, [1.0] * 3, [1.0] * 3)
+    starts = np.random.default_rng(3).normal(size=(20, 3))
+    together = least_squares(system, starts)
+    for start, end in zip(starts, together, strict=True):
+        assert least_squares(system, start) == pytest.approx(end, rel=1e-6)

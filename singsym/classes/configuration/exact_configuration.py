@@ -19,6 +19,7 @@ from singsym.classes.configuration.given_values import Target
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
 from singsym.polynomials.ring import AlgebraicConstant
+from singsym.polynomials.sizes import largest_term
 from singsym.varieties.real.points.exact_point import RealPoint
 from singsym.varieties.real.points.roots import real_roots
 
@@ -77,7 +78,7 @@ class ExactPoint:
         from sympy.polys.constructor import construct_domain
 
         given = [values[name] for name in equation.space.ring.names]
-        if not given or not all(v.is_algebraic for v in given):
+        if not given or not all(v.is_algebraic for v in given) or not _may_close(equation, given):
             return None
         domain, elements = construct_domain(given, extension=True)
         if not (domain.is_ZZ or domain.is_QQ or domain.is_Algebraic):
@@ -148,6 +149,17 @@ class ExactPoint:
         columns = list(zip(*other, strict=True))
         zero = self.numbers.zero
         return [[sum((a * b for a, b in zip(r, c, strict=True)), zero) for c in columns] for r in one]
+
+
+def _may_close(equation: VelocityEquation, given: Sequence[sympy.Expr]) -> bool:
+    """Whether the loops close to many digits, before a field is looked for, which may take long."""
+    import mpmath
+
+    with mpmath.workdps(_DIGITS):
+        point = [mpmath.mpf(str(sympy.N(v, _DIGITS))) for v in given]
+        sizes = [max(1.0, abs(float(x))) for x in point]
+        left = ((abs(e.evaluate(point)), largest_term(e, sizes)) for e in equation.space.equations)
+        return all(value < size * mpmath.mpf(10) ** (-_DIGITS // 2) for value, size in left)
 
 
 def exact_kernels(equation: VelocityEquation, values: Mapping[str, sympy.Expr]) -> dict[str, Floats] | None:

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from singsym.polynomials.gauss_newton import Map
 
 _STARTS = 60
+_SAME = 1e-10
+"""Where least squares end so near to each other, over the sizes of the variables, they are at one point."""
 _SMALL = 1e-9
 """Singular values of the loop equations' slopes below so much of the largest count as zero."""
 
@@ -78,7 +80,7 @@ class _Targets:
         self.scales = _positive(np.maximum(sides, values))
 
     def __call__(self, points: Floats) -> tuple[Floats, Floats]:
-        """The differences at a point and their slopes."""
+        """The differences at a point, or at many, and their slopes."""
         (sides, slopes), (factors, more) = self._sides(points), self._factors(points)
         values = sides - self.values * factors
         return values / self.scales, (slopes - self.values[:, None] * more) / self.scales[:, None]
@@ -95,7 +97,7 @@ class _Together:
         import numpy as np
 
         (values, slopes), (others, more) = self.first(points), self.second(points)
-        return np.concatenate([values, others]), np.vstack([slopes, more])
+        return np.concatenate([values, others], axis=-1), np.concatenate([slopes, more], axis=-2)
 
 
 class _Problem:
@@ -125,12 +127,20 @@ class _Problem:
             found[index] = float(value)
         return found
 
-    def nearest(self, system: Map, point: Floats) -> Floats:
-        """The free coordinates moved to where the system's values are least."""
+    def nearest(self, system: Map, points: Floats) -> Floats:
+        """The free coordinates of points, one a row, moved to where the system's values are least."""
         from singsym.polynomials.gauss_newton import Restricted, least_squares
 
-        restricted = Restricted(system, point, self.free)
-        return restricted.filled(least_squares(restricted, point[self.free]))
+        restricted = Restricted(system, self.start(), self.free)
+        return restricted.filled(least_squares(restricted, points[:, self.free]))
+
+    def different(self, points: Floats, most: float) -> list[Floats]:
+        """Of points those that are farther than this from the ones before."""
+        found: list[Floats] = []
+        for point in points:
+            if all(self.distance(point, other) > most for other in found):
+                found.append(point)
+        return found
 
     def scaled_slopes(self, system: Map, point: Floats) -> Floats:
         """The slopes by the free coordinates over their sizes."""
@@ -168,8 +178,10 @@ def locate(
 
     problem = _Problem(equation, wanted)
     ends: list[tuple[float, Floats, Floats]] = []
-    for start in _starts(problem, seed) if near is None else [np.array(near, dtype=float)]:
-        given = problem.nearest(problem.targets, problem.nearest(problem.both, start))
+    starts = np.array([*_starts(problem, seed)] if near is None else [near], dtype=float)
+    for given in problem.different(
+        problem.nearest(problem.targets, problem.nearest(problem.both, starts)), _SAME
+    ):
         end = project(problem.loops, given, problem.free, accuracy=1e-9, cut=_SMALL)
         if end is not None:
             ends.append((problem.misfit(end), given, end))
@@ -179,10 +191,7 @@ def locate(
     near = [e for e in ends if e[0] <= max(1e-7, 1.5 * smallest)]
     near = [e for e in near if is_feasible(equation, e[2], problem.sizes)] or near
     misfit, given, point = min(near, key=lambda e: e[0])
-    alike: list[Floats] = [point]
-    for _, _, other in near:
-        if all(problem.distance(other, seen) > max(1e-4, 4 * smallest) for seen in alike):
-            alike.append(other)
+    alike = problem.different(np.array([point, *(end for _, _, end in near)]), max(1e-4, 4 * smallest))
     rank = numerical_rank(problem.scaled_slopes(problem.both, point), 1e-6).rank
     found = Located(
         tuple(given.tolist()),

@@ -7,7 +7,7 @@ Whiteley, SIAM J. Discrete Math. 9 (1996) 453-491, else its components through t
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from singsym.classes.classify import Limits
@@ -15,13 +15,14 @@ from singsym.classes.configuration.at import at_equation
 from singsym.classes.configuration.exact_configuration import ExactPoint, exact_values
 from singsym.classes.configuration.given_values import Given, targets
 from singsym.effort.budget import Undecided, current
-from singsym.effort.verdict import Certainty, Premises
+from singsym.effort.verdict import Certainty, Known, Premises
 from singsym.kinematics.placement import JointValue
 from singsym.kinematics.velocity import VelocityEquation, velocity_equation
 from singsym.mechanism.model import Mechanism
 from singsym.polynomials import Equations
 from singsym.varieties.decomposition import Component, decompose
 from singsym.varieties.purity import PurePiece
+from singsym.varieties.real.curves.real_curve import CurveComponent, real_curve
 from singsym.varieties.real.dimension.real_dimension import local_dimension
 from singsym.varieties.real.points.exact_point import RealPoint
 
@@ -35,6 +36,8 @@ class SelfMotion:
     dimension: of the configurations with the same values near this one, as a real set: 0, it is the only one,
         and null motions are infinitesimal; 1, they form a curve.  None where undecided, as `reason` says.
     certainty: of the dimension.
+    curve: where the dimension is 1, all of the connected curve of such configurations through this one, with
+        polylines; None where it was not proven, as `untraced` says.
     """
 
     held: str
@@ -42,6 +45,8 @@ class SelfMotion:
     dimension: int | None
     certainty: Certainty
     reason: str = ""
+    curve: Known[CurveComponent] | None = None
+    untraced: str = ""
 
     def __str__(self) -> str:
         """In words."""
@@ -100,18 +105,33 @@ def _fibre(point: ExactPoint, held: str, values: Sequence[tuple[str, JointValue 
     loops = [ring.convert(e) for e in equation.space.equations if {*e.variables} & {*names}]
     fixed = [_kept(point, value) for _, value in values if value is not None]
     null_motions, dimension = second_order(point, (*loops, *(own[0] for own in fixed)), names)
+    equations = tuple(dict.fromkeys((*loops, *ring.relations, *(e for own in fixed for e in own))))
     if dimension is not None:
-        return SelfMotion(held, null_motions, dimension, "proven")
+        return _traced(SelfMotion(held, null_motions, dimension, "proven"), point.real_point, equations)
     premises, seen = Premises(), [0]
     try:
         with current().part(Limits().seconds, Limits().memory_mb):
-            equations = (*loops, *ring.relations, *(e for own in fixed for e in own))
             found = premises.take(decompose(equations, ring=ring))
             here = [c for c in found if not any(point.real_point.sign(g) for g in c.generators)]
             seen += [_smooth_dimension(point.real_point, component) for component in here]
     except Undecided as reason:
         return SelfMotion(held, null_motions, None, "undecided", str(reason))
-    return SelfMotion(held, null_motions, max(seen), premises.certainty)
+    sized = SelfMotion(held, null_motions, max(seen), premises.certainty)
+    return _traced(sized, point.real_point, equations)
+
+
+def _traced(found: SelfMotion, point: RealPoint, equations: Equations) -> SelfMotion:
+    """With the curve of configurations, where they form one."""
+    if found.dimension != 1:
+        return found
+    try:
+        with current().part(Limits().seconds, Limits().memory_mb):
+            curve = real_curve(equations)
+            if curve.verdict.is_undecided:
+                return replace(found, untraced=curve.verdict.reason)
+            return replace(found, curve=Known(curve.component_of(point), curve.verdict.certainty))
+    except (Undecided, ValueError) as reason:
+        return replace(found, untraced=str(reason))
 
 
 def _smooth_dimension(point: RealPoint, component: Component) -> int:

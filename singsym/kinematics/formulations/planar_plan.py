@@ -132,7 +132,8 @@ def _pins(mechanism: Mechanism) -> dict[tuple[str, str], Pin]:
 def _struts(mechanism: Mechanism, pin_of: Mapping[tuple[str, str], Pin]) -> list[Joint]:
     """Slides of two rods with one pin each, on the line through the pins, which may not coincide.
 
-    None with a coupling, which needs the length, or the direction at a pin.
+    None with a coupling, which needs the length, or the direction at a pin; none of the ground, whose
+    direction is that of the axes.
     """
     coupled = {column for coupling in mechanism.couplings for column, _ in coupling.terms}
     apart = [set(e.points) for e in mechanism.exclusions if e.kind == "coincide"]
@@ -143,7 +144,7 @@ def _struts(mechanism: Mechanism, pin_of: Mapping[tuple[str, str], Pin]) -> list
         ends = ((joint.first, joint.at[0]), (joint.second, joint.at[1]))
         if not all(end in pin_of for end in ends):
             continue
-        lone = all(mechanism.graph.degree(link) == 2 for link, _ in ends)
+        lone = all(link != mechanism.ground and mechanism.graph.degree(link) == 2 for link, _ in ends)
         rods = {joint.first, joint.second}
         free = not any(j.name in coupled and rods & {j.first, j.second} for j in mechanism.joints)
         positive = any(

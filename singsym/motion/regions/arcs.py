@@ -73,7 +73,7 @@ class Arcs:
         for share in _SHARES if len(piece.line) else ():
             point = self._on_curve(piece.line, share)
             near = self.motions.near(point)
-            signs = () if near is None else self.motions.borders.signs(near.box)
+            signs = () if near is None else self.motions.borders.signs(near)
             if near is None or not all(signs):
                 continue
             try:

@@ -18,11 +18,10 @@ from singsym.classes.configuration.locate import sizes_of_coordinates
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.problems import MechanismError, Problem
 from singsym.motion.coordinates import Coordinates, joint_space
-from singsym.motion.enclosures import is_surely_regular, sure_sign
+from singsym.motion.enclosures import Enclosure, is_surely_regular, sure_sign
 from singsym.motion.loci import determinant_factors, determinant_loci
 from singsym.polynomials import Polynomial
 from singsym.polynomials.compiled_map import CompiledMap, Floats
-from singsym.varieties.real.points.intervals import Box
 
 _LIMIT, _EXCLUSION = "limit", "exclusion"
 
@@ -69,19 +68,19 @@ class Borders:
         """Those whose polynomials keep their signs inside a region."""
         return (*self.singular, *self.barriers)
 
-    def signs(self, box: Box) -> tuple[int, ...]:
-        """The signs of all polynomials on a box; 0 where the box does not decide them."""
-        return tuple(sure_sign(b.polynomial, box) for b in self.all)
+    def signs(self, where: Enclosure) -> tuple[int, ...]:
+        """The signs of all polynomials on an enclosure; 0 where it does not decide them."""
+        return tuple(sure_sign(b.polynomial, where) for b in self.all)
 
-    def are_off(self, box: Box) -> bool:
-        """Whether it is proven that no configuration in a box is on a border or beyond a limit."""
-        return is_surely_regular(self.equation, self.conditions, box) and self.is_within(box)
+    def are_off(self, where: Enclosure) -> bool:
+        """Whether it is proven that no configuration in an enclosure is on a border or beyond a limit."""
+        return self.is_within(where) and is_surely_regular(self.equation, self.conditions, where)
 
-    def is_within(self, box: Box) -> bool:
-        """Whether limits and exclusions are proven to allow all of a box."""
-        signs = ((b.condition, sure_sign(b.polynomial, box)) for b in self.barriers)
+    def is_within(self, where: Enclosure) -> bool:
+        """Whether limits and exclusions are proven to allow all of an enclosure."""
+        signs = ((b.condition, sure_sign(b.polynomial, where)) for b in self.barriers)
         allowed = all(sign > 0 if kind == _LIMIT else sign for kind, sign in signs)
-        return allowed and all(any(sure_sign(p, box) for p in hole) for hole in self.holes)
+        return allowed and all(any(sure_sign(p, where) for p in hole) for hole in self.holes)
 
     @cached_property
     def _map(self) -> CompiledMap:

@@ -7,6 +7,7 @@ regions with other signs are proven to be two.  Which configurations belong toge
 from __future__ import annotations
 
 from collections import defaultdict
+from itertools import combinations
 
 import networkx as nx
 import numpy as np
@@ -15,9 +16,11 @@ from singsym.effort import progress
 from singsym.effort.verdict import Verdict
 from singsym.kinematics.sampling import sample_configurations
 from singsym.mechanism.problems import MechanismError, Problem
+from singsym.motion.enclosures import sure_sign
 from singsym.motion.regions.flood import SAMPLES, Flood, axes_of
 from singsym.motion.regions.free_motion import FreeMotions
-from singsym.motion.regions.result import Region, Regions
+from singsym.motion.regions.result import Region, Regions, Wall
+from singsym.motion.regions.walls import wall
 
 _CORNER = 4
 """So few cells are a corner that a step went around, not a region."""
@@ -45,7 +48,27 @@ def chart(motions: FreeMotions, grid: int, seed: int = 0) -> Regions:
     axes = tuple(axis * unit for axis, unit in zip(flood.axes, motions.space.units, strict=True))
     verdict = Verdict.undecided("found on a grid of the inputs: small regions and narrow ways may be missed")
     regions = tuple(region for region in found if region is not None)
-    return Regions(equation, borders.all, regions, verdict, axes, assemblies)
+    return Regions(equation, borders.all, regions, verdict, _walls(motions, regions), axes, assemblies)
+
+
+def _walls(motions: FreeMotions, regions: tuple[Region, ...]) -> tuple[tuple[Wall, tuple[int, ...]], ...]:
+    """Between any two regions with the same signs a wall, where one is proven."""
+    found: list[tuple[Wall, tuple[int, ...]]] = []
+    for one, other in combinations(range(len(regions)), 2):
+        first, second = regions[one], regions[other]
+        if first.signs != second.signs or any(sides[one] * sides[other] < 0 for _, sides in found):
+            continue
+        progress.report("regions", f"whether regions {one + 1} and {other + 1} are apart")
+        between = wall(motions, first.signs, first.points, second.points)
+        if between is not None:
+            found.append((between, tuple(_side(motions, between, region) for region in regions)))
+    return tuple(found)
+
+
+def _side(motions: FreeMotions, between: Wall, region: Region) -> int:
+    """The sign of a wall's polynomial in a region, where it keeps it; 0 where that is not known."""
+    near = motions.near(np.array(list(region.values.values()))) if region.signs == between.signs else None
+    return 0 if near is None else sure_sign(between.polynomial, near)
 
 
 def _region(motions: FreeMotions, flood: Flood, nodes: list[int]) -> Region | None:
@@ -56,7 +79,7 @@ def _region(motions: FreeMotions, flood: Flood, nodes: list[int]) -> Region | No
             met[k] += 1
     for node in sorted(nodes, key=flood.margin, reverse=True)[:_TRIES]:
         place = motions.place(flood.points[node])
-        signs = () if place is None else motions.borders.signs(place.near.box)
+        signs = () if place is None else motions.borders.signs(place.near)
         if place is not None and all(signs):
             return Region(
                 *motions.named(place.point),

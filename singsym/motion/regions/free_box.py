@@ -27,6 +27,8 @@ _FIRST, _SMALLEST = 0.5, 1e-7
 """Half the width of the first box that is tried, and of the last, in radians or lengths over their unit."""
 _PARTS = 16
 """Tests for one part that is put on."""
+_GROWTH, _SHARE = 1.25, 0.25
+"""All sides are moved by so much at once, while this takes less than that share of all tests."""
 _THIN = 0.02
 """Parts that are thinner than so much of the box are not put on."""
 
@@ -54,7 +56,8 @@ class FreeBox:
 def free_box(found: Analysis, *, tests: int = TESTS) -> FreeBox:
     """A proven box around a configuration that `at` has examined, for any mobility.
 
-    It is grown side by side as far as the proof goes: a larger one may be free as well.  tests: so many boxes
+    It is grown on all sides at once, then side by side, as far as the proof goes: a larger one may be free as
+    well.  tests: so many boxes
     are tried; more make it larger.  Raises `MechanismError` where the configuration is not proven to be
     regular and within limits, or the inputs' values are not known.
 
@@ -107,12 +110,28 @@ class _Paving:
                 self.cells, self.low, self.high = [found], found.low, found.high
                 break
             radius /= 1.6
+        radius = self._all_sides(radius)
         thickness = np.full((2, len(self.centre)), radius)
         moving = [(side, k) for k in range(len(self.centre)) for side in (0, 1)] if self.cells else []
         while moving and self.left:
             moving = [way for way in moving if self._moved(way, thickness)]
             progress.report("free box", f"{len(self.cells)} boxes", self.all - self.left, self.all)
         return self._result(length)
+
+    def _all_sides(self, radius: float) -> float:
+        """Move all sides outwards by the same, as far as few tests prove it; where they are then."""
+        share = int(_SHARE * self.all)
+        while self.cells and self.left > share:
+            wider = _GROWTH * radius
+            if 2 * (wider - radius) > min(map(self._room, range(len(self.centre)))):
+                break
+            low, high = self.centre - wider, self.centre + wider
+            found = self._proven(low, high, self.point, self.left - share)
+            if found is None:
+                break
+            self.cells, self.low, self.high, radius = found, low, high, wider
+            progress.report("free box", f"{len(found)} boxes", self.all - self.left, self.all)
+        return radius
 
     def _moved(self, way: tuple[int, int], thickness: Floats) -> bool:
         """Move one side outwards, or make its next step smaller; whether it may move again."""
@@ -154,7 +173,7 @@ class _Paving:
         whole = self._cell(low, high, near)
         if whole is not None:
             return [whole]
-        k = int(np.argmax(high - low))
+        k = self._steepest(low, high, near)
         middle = (low[k] + high[k]) / 2
         first, second = high.copy(), low.copy()
         first[k] = second[k] = middle
@@ -165,20 +184,29 @@ class _Paving:
         face = (low + high) / 2
         return [*one, *two] if self._agree(face, self._near(face, near), one, two) else None
 
+    def _steepest(self, low: Floats, high: Floats, near: Floats) -> int:
+        """The input by whose range the variables change most."""
+        middle = (low + high) / 2
+        slopes = self.motions.sheet.slopes(self._values(middle, middle), self._near(middle, near))
+        widths = (high - low) * self.units
+        return int(np.argmax(widths if slopes is None else widths * np.linalg.norm(slopes, axis=0)))
+
     def _cell(self, low: Floats, high: Floats, near: Floats) -> _Cell | None:
         self.left -= 1
         point = self._near((low + high) / 2, near)
         if not np.isfinite(point).all():
             return None
         sheet = self._sheet(low, high, point)
-        off = sheet is not None and self.motions.borders.are_off(sheet.box)
+        off = sheet is not None and self.motions.borders.are_off(sheet)
         return _Cell(low, high, sheet) if sheet is not None and off else None
 
     def _sheet(self, low: Floats, high: Floats, point: Floats) -> Enclosure | None:
+        return self.motions.sheet.over(self._values(low, high), point)
+
+    def _values(self, low: Floats, high: Floats) -> dict[str, arb]:
         with at_precision(BITS):
             ends = zip(self.space.labels, low.tolist(), high.tolist(), self.space.units, strict=True)
-            values = {label: arb(a).union(arb(b)) * arb(unit) for label, a, b, unit in ends}
-        return self.motions.sheet.over(values, point)
+            return {label: arb(a).union(arb(b)) * arb(unit) for label, a, b, unit in ends}
 
     def _near(self, values: Floats, point: Floats) -> Floats:
         """The configuration over some values that Newton's method reaches, in a few steps on the way."""
@@ -194,8 +222,7 @@ class _Paving:
             return False
         found = self._sheet(at, at, near)
         own = [next((c for c in cells if c.has(at)), None) for cells in (one, two)]
-        count = len(self.motions.system.ring.names)
-        return found is not None and all(cell is not None and cell.sheet.has(found, count) for cell in own)
+        return found is not None and all(cell is not None and cell.sheet.has(found) for cell in own)
 
     def _result(self, length: float) -> FreeBox:
         if not self.cells:

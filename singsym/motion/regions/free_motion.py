@@ -50,7 +50,6 @@ class FreeMotions:
             borders.equation, space.labels, dict(zip(space.labels, space.values, strict=True))
         )
         self.sheet = Sheet(borders.equation, self.system)
-        self._all = len(self.system.ring.names)
 
     @cached_property
     def _newton(self) -> Newton:
@@ -74,7 +73,7 @@ class FreeMotions:
     def place(self, point: Floats) -> Place | None:
         """A configuration known in doubles; None where it is not proven to be inside a region."""
         near = self.near(point)
-        if near is None or not self.borders.are_off(near.box):
+        if near is None or not self.borders.are_off(near):
             return None
         values = self.space.at(point)[0] * np.array(self.space.units)
         return Place(point, dict(zip(self.space.labels, values.tolist(), strict=True)), near)
@@ -103,12 +102,12 @@ class FreeMotions:
             first, last = first or piece.first, piece
         if first is None or last is None or last.end != path.times[-1]:
             return 0
-        ends = one.near.has(first, self._all) and other.near.has(last.last, self._all)
-        return boxes if ends else 0
+        ends = ((one.near, first), (other.near, last.last))
+        return boxes if all(near.covers(end) and near.has(end) for near, end in ends) else 0
 
     def _free(self, way: Continuation, piece: MotionPiece) -> int:
         """In how many boxes a piece is free of borders; 0 where that is not proven."""
-        if self.borders.are_off(piece.box):
+        if self.borders.are_off(piece.whole):
             return 1
         if piece.end - piece.start < way.shortest:
             return 0

@@ -18,10 +18,13 @@ from singsym.effort.budget import Undecided
 from singsym.effort.verdict import Verdict
 from singsym.kinematics.sampling import sample_configurations
 from singsym.mechanism.problems import MechanismError, Problem
+from singsym.motion.enclosures import sure_sign
 from singsym.motion.regions.arcs import Arcs
 from singsym.motion.regions.borders import Border, borders, input_space, point_of
 from singsym.motion.regions.flood import SAMPLES, Flood, axes_of
 from singsym.motion.regions.free_motion import OUTSIDE, FreeMotions, Place
+from singsym.motion.regions.result import Wall
+from singsym.motion.regions.walls import wall
 from singsym.motion.trajectory import Trajectory
 from singsym.polynomials.compiled_map import Floats
 
@@ -57,7 +60,7 @@ def joined(one: Analysis, other: Analysis, *, seed: int = 0) -> Joined:
     >>> arm = load("2r")
     >>> up, far, down = (at(arm, {"joints": {"A": a, "B": b}}) for a, b in ((0, 1), (2, 3), (0, -1)))
     >>> str(joined(up, far).verdict)
-    'yes (certified): a motion without a border is proven, in 8 boxes'
+    'yes (certified): a motion without a border is proven, in 4 boxes'
     >>> joined(up, down).apart.words
     'A, B, C collinear'
     """
@@ -82,7 +85,19 @@ def joined(one: Analysis, other: Analysis, *, seed: int = 0) -> Joined:
         if boxes:
             reason = f"a motion without a border is proven, in {boxes} boxes"
             return Joined(Verdict.yes("certified", reason=reason), path, boxes)
+    between = _walled(motions, first, last)
+    if between is not None:
+        return Joined(Verdict.no(between.certainty, reason=str(between)))
     return Joined(Verdict.undecided("no path was found and proven, and no sign tells them apart"))
+
+
+def _walled(motions: FreeMotions, first: Place, last: Place) -> Wall | None:
+    """A wall between two places with the same signs."""
+    between = wall(motions, motions.borders.signs(first.near), first.point[None], last.point[None])
+    if between is None:
+        return None
+    sides = [sure_sign(between.polynomial, place.near) for place in (first, last)]
+    return between if sides[0] * sides[1] < 0 else None
 
 
 def _on_arcs(motions: FreeMotions, first: Place, last: Place) -> Verdict:
@@ -104,7 +119,7 @@ def _sign_apart(motions: FreeMotions, first: Place, last: Place) -> Border | Non
     region; so it keeps its sign there.
     """
     borders = motions.borders
-    signs = [borders.signs(place.near.box) for place in (first, last)]
+    signs = [borders.signs(place.near) for place in (first, last)]
     for border, a, b in zip(borders.all, signs[0], signs[1], strict=True):
         if a * b < 0:
             return border

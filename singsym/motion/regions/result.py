@@ -7,11 +7,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import combinations
+
+import networkx as nx
 
 from singsym.effort.verdict import Certainty, Verdict
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.motion.arithmetic import Array
 from singsym.motion.regions.borders import Border
+from singsym.polynomials import Polynomial
 from singsym.polynomials.compiled_map import Floats
 
 
@@ -35,12 +39,29 @@ class Region:
 
 
 @dataclass(frozen=True, eq=False)
+class Wall:
+    """A polynomial that vanishes at no configuration at which the borders' polynomials have these signs.
+
+    Lemma: in a region it keeps its sign, for the region is connected and has these signs throughout.
+    """
+
+    polynomial: Polynomial
+    signs: tuple[int, ...]
+    certainty: Certainty
+
+    def __str__(self) -> str:
+        return f"{self.polynomial.short_text(4)} vanishes at no configuration with the signs of both"
+
+
+@dataclass(frozen=True, eq=False)
 class Regions:
     """All regions that were found, large ones first.
 
     borders: the factors of (4) and (5), then, apart from these, limits and exclusions.
     verdict: yes where these are proven to be all, each of one piece, and no two the same: for n = 1; else
     undecided: a small one may be missed, and which are apart is as `apart` says.
+    walls: for n = 2 further polynomials that keep their signs in regions with some signs, and of each region
+    the certified sign, 0 where the wall says nothing of it.
     axes: for n = 2 the middles of the grid's cells along the inputs, in radians or lengths; assemblies: the
     number of configurations within limits over each cell.
     """
@@ -49,6 +70,7 @@ class Regions:
     borders: tuple[Border, ...]
     regions: tuple[Region, ...]
     verdict: Verdict
+    walls: tuple[tuple[Wall, tuple[int, ...]], ...] = ()
     axes: tuple[Floats, ...] = ()
     assemblies: Floats | None = None
 
@@ -60,7 +82,10 @@ class Regions:
     @property
     def at_least(self) -> int:
         """So many regions are proven to be there."""
-        return len(self.regions) if self.verdict.is_yes else len({r.signs for r in self.regions})
+        pairs = combinations(range(len(self.regions)), 2)
+        graph = nx.Graph(pair for pair in pairs if not self.apart(*pair).is_yes)
+        graph.add_nodes_from(range(len(self.regions)))
+        return int(nx.number_connected_components(graph))
 
     def apart(self, one: int, other: int) -> Verdict:
         """Whether two regions, by their numbers from 0, are proven to be two."""
@@ -69,6 +94,11 @@ class Regions:
         for border, a, b in zip(self.borders, first, second, strict=True):
             if a * b < 0:
                 return Verdict.yes(certainty, reason=f"{border}: other signs in both")
+        for wall, sides in self.walls:
+            if sides[one] * sides[other] < 0:
+                return Verdict.yes(wall.certainty, reason=str(wall))
         if self.verdict.is_yes:
             return Verdict.yes(self.verdict.certainty, reason="they are different arcs")
-        return Verdict.undecided("no step on the grid joins them, and no sign tells them apart")
+        return Verdict.undecided(
+            "no step on the grid joins them, and neither a sign nor a plane tells them apart"
+        )

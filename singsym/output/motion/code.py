@@ -7,7 +7,7 @@ sympy.printing).
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,9 +18,9 @@ from sympy.printing.pycode import PythonCodePrinter
 
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.problems import MechanismError
-from singsym.motion.arithmetic import Array
+from singsym.motion.arithmetic import Arithmetic, Array
 from singsym.motion.forward import Forward
-from singsym.motion.numeric import NumericLinkage, numeric_equation
+from singsym.motion.numeric import NumericLinkage
 from singsym.polynomials import Polynomial
 
 LANGUAGES = ("python", "c")
@@ -31,7 +31,7 @@ LANGUAGES = ("python", "c")
 class _Function:
     """A function from an array to a list of numbers: assignments in order, then the results.
 
-    arguments: name and length of each array that it takes.
+    arguments: name and length of each array that it takes; is_polynomial: whether it has a value everywhere.
     """
 
     name: str
@@ -39,14 +39,21 @@ class _Function:
     arguments: tuple[tuple[str, int], ...]
     assignments: tuple[tuple[sympy.Symbol, sympy.Expr], ...]
     results: tuple[sympy.Expr, ...]
+    is_polynomial: bool = True
+
+    @property
+    def symbols(self) -> set[sympy.Symbol]:
+        """All that are read."""
+        expressions = (*(e for _, e in self.assignments), *self.results)
+        return {s for e in expressions for s in e.free_symbols}
 
 
 def code(equation: VelocityEquation, language: str, name: str) -> str:
     """A file with the loop equations, L, the factors of (4) and (5), and the assemblies over the inputs.
 
-    language: one of `LANGUAGES`; name: of the mechanism.  Conditions that are no products of polynomials, and
-    assemblies that have no closed form, are left out and named.  Raises `MechanismError` for symbolic
-    parameters.
+    language: one of `LANGUAGES`; name: of the mechanism.  Symbolic parameters are arguments.  Conditions that
+    are no products of polynomials, and assemblies that have no closed form, as where there are parameters,
+    are left out and named.
 
     >>> from singsym.kinematics.velocity import velocity_equation
     >>> from singsym.mechanism import load
@@ -56,8 +63,8 @@ def code(equation: VelocityEquation, language: str, name: str) -> str:
     >>> there["VARIABLES"]
     ('Bx', 'By', 'Cx', 'Cy')
     """
-    linkage = numeric_equation(equation)
-    names = [n for n in linkage.names if n not in {c.name for c in equation.space.ring.constants}]
+    linkage = NumericLinkage(equation, Arithmetic())
+    names = _variables(equation)
     functions = [
         _of_polynomials(equation, "loops", "What is left of the loop equations.", equation.space.equations),
         _of_polynomials(
@@ -90,19 +97,34 @@ def code(equation: VelocityEquation, language: str, name: str) -> str:
         remarks.append(f"The configuration over the inputs is left out: {error.problems[0]}")
     head = [f"{name}: loop equations, L and singularity conditions, written by singsym."]
     head += [f"The variables are {', '.join(names)}; lengths in the mechanism's unit, angles in radians."]
-    return (_python if language == "python" else _c)([*head, *remarks], names, functions, name)
+    if equation.space.parameters:
+        head += [f"The parameters are {', '.join(equation.space.parameters)}."]
+    if language == "c":
+        return _c([*head, *remarks], functions, name)
+    return _python(
+        [*head, *remarks], {"VARIABLES": names, "PARAMETERS": equation.space.parameters}, functions
+    )
+
+
+def _variables(equation: VelocityEquation) -> tuple[str, ...]:
+    """The names that are neither constants nor parameters."""
+    others = {*(c.name for c in equation.space.ring.constants), *equation.space.parameters}
+    return tuple(n for n in equation.space.ring.names if n not in others)
 
 
 def _of_polynomials(
     equation: VelocityEquation, name: str, words: str, polynomials: Sequence[Polynomial]
 ) -> _Function:
-    ring = equation.space.ring
-    constants = {c.name for c in ring.constants}
-    variables = [n for n in ring.names if n not in constants]
-    symbols = {sympy.Symbol(n): sympy.Symbol(f"q[{k}]") for k, n in enumerate(variables)}
+    groups = {"q": _variables(equation), "parameters": equation.space.parameters}
+    symbols = {
+        sympy.Symbol(name): sympy.Symbol(f"{argument}[{k}]")
+        for argument, names in groups.items()
+        for k, name in enumerate(names)
+    }
     expressions = [p.to_sympy().xreplace(symbols) for p in polynomials]
     shared, results = sympy.cse(expressions, symbols=sympy.numbered_symbols("t"), order="none")
-    return _Function(name, words, (("q", len(variables)),), tuple(shared), tuple(results))
+    arguments = tuple((argument, len(names)) for argument, names in groups.items() if names)
+    return _Function(name, words, arguments, tuple(shared), tuple(results))
 
 
 # -- assemblies --------------------------------------------------------------------------------------
@@ -150,10 +172,11 @@ def _of_assemblies(linkage: NumericLinkage, names: Sequence[str]) -> _Function:
             known[name] = symbol
     words = (
         f"The configuration q with these values of the inputs {', '.join(linkage.inputs)}; "
-        f"mode: signs 1 or -1 for {'; '.join(solver.roots) or 'nothing'}."
+        f"mode: signs 1 or -1 for {'; '.join(solver.roots) or 'nothing'}; not numbers where there is none."
     )
     arguments = (("values", len(solver.system.drives)), ("mode", place))
-    return _Function("configuration", words, arguments, tuple(assignments), tuple(known[n] for n in names))
+    results = tuple(known[n] for n in names)
+    return _Function("configuration", words, arguments, tuple(assignments), results, is_polynomial=False)
 
 
 # -- printing ----------------------------------------------------------------------------------------
@@ -172,21 +195,27 @@ class _C(C99CodePrinter):  # type: ignore[misc]
         return str(super()._print_Pow(expr))
 
 
-def _python(head: Sequence[str], names: Sequence[str], functions: Sequence[_Function], name: str) -> str:
+def _python(head: Sequence[str], names: Mapping[str, Sequence[str]], functions: Sequence[_Function]) -> str:
     printer = _Python({"fully_qualified_modules": True})
     first, *others = map(_quotable, head)
-    lines = [f'"""{first}', *others, '"""', "", "import math", "", f"VARIABLES = {tuple(names)!r}"]
+    lines = [f'"""{first}', *others, '"""', "", "import math", ""]
+    lines += [f"{title} = {tuple(own)!r}" for title, own in names.items() if own]
     for function in functions:
         arguments = ", ".join(argument for argument, _ in function.arguments)
         lines += ["", "", f"def {function.name}({arguments}):", f'    """{_quotable(function.words)}"""']
-        lines += [f"    {symbol} = {printer.doprint(e)}" for symbol, e in function.assignments]
-        lines += ["    return ["]
-        lines += [f"        {printer.doprint(e)}," for e in function.results]
-        lines += ["    ]"]
+        body = [f"{symbol} = {printer.doprint(e)}" for symbol, e in function.assignments]
+        body += ["return [", *(f"    {printer.doprint(e)}," for e in function.results), "]"]
+        if not function.is_polynomial:
+            failed = [
+                "except (ValueError, ZeroDivisionError):",
+                f"    return [math.nan] * {len(function.results)}",
+            ]
+            body = ["try:", *(f"    {line}" for line in body), *failed]
+        lines += [f"    {line}" for line in body]
     return "\n".join(lines)
 
 
-def _c(head: Sequence[str], names: Sequence[str], functions: Sequence[_Function], name: str) -> str:
+def _c(head: Sequence[str], functions: Sequence[_Function], name: str) -> str:
     printer = _C()
     prefix = re.sub(r"\W", "_", name, flags=re.ASCII)
     prefix = f"linkage_{prefix}" if not prefix[:1].isalpha() else prefix
@@ -199,6 +228,10 @@ def _c(head: Sequence[str], names: Sequence[str], functions: Sequence[_Function]
             f"/* {_quotable(function.words)} */",
             f"void {prefix}_{function.name}({arguments})",
             "{",
+        ]
+        used = {str(s).partition("[")[0] for s in function.symbols}
+        lines += [
+            f"    (void){argument};" for argument, size in function.arguments if size and argument not in used
         ]
         lines += [f"    const double {symbol} = {printer.doprint(e)};" for symbol, e in function.assignments]
         lines += [f"    result[{k}] = {printer.doprint(e)};" for k, e in enumerate(function.results)]

@@ -30,7 +30,7 @@ def regions_page(name: str, found: Regions) -> Page:
     if found.verdict.is_yes:
         blocks.append(f"{many}, {found.verdict.certainty}: {found.verdict.reason}.")
     else:
-        least = f"; {found.at_least} at least, certified by their signs" if count else ""
+        least = f"; {found.at_least} at least, proven" if count else ""
         blocks.append(f"{many} found{least}.  Undecided whether these are all: {found.verdict.reason}.")
     lines = [f"  {k}  {border}" for k, border in enumerate(found.borders, 1)]
     if lines:

@@ -43,3 +43,17 @@ def test_open_loops_have_no_exact_kernels() -> None:
     values = exact_values(equation, wanted)
     assert values is not None
     assert exact_kernels(equation, values) is None
+
+
+def test_no_field_is_looked_for_where_loops_are_surely_open(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Angles of 60 and 100 degrees make a field of degree 12; C is a tenth off the circle about B."""
+    equation = velocity_equation(load("five-bar"))
+    given = {"joints": {"A": "60 deg", "E": "100 deg"}, "points": {"C": ["33/10", "1/10"]}}
+    values = exact_values(equation, targets(Given.of(given), equation))
+    assert values is not None
+
+    def refused(*_: object, **__: object) -> None:
+        raise AssertionError("a field was looked for")
+
+    monkeypatch.setattr("sympy.polys.constructor.construct_domain", refused)
+    assert exact_kernels(equation, values) is None

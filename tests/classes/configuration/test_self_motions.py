@@ -5,10 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from singsym.classes.configuration.self_motions import SelfMotion, self_motions
 from singsym.mechanism import Choice, load
+from singsym.output.motion.self_motion_page import self_motion_data, self_motion_page
+from singsym.output.page import Grid
 
 ARM = """
 name = "arm"
@@ -63,6 +66,38 @@ def test_five_bar_with_coincident_cranks() -> None:
     place = ["1/2", "sqrt(15)/2"]
     folded = {"points": {"B": place, "D": place, "C": ["7/2", "sqrt(15)/2"]}}
     assert of("five-bar", folded) == [(1, 1), (0, 0)]
+
+
+def test_the_curve_of_a_self_motion_is_traced() -> None:
+    """The same: a circle of C about B, 3 wide, once round."""
+    place = ["1/2", "sqrt(15)/2"]
+    folded = {"points": {"B": place, "D": place, "C": ["7/2", "sqrt(15)/2"]}}
+    (found, still) = self_motions(load("five-bar"), folded)
+    assert still.curve is None
+    assert found.curve is not None
+    assert found.curve.certainty == "certified"
+    curve = found.curve.value
+    assert curve.closed
+    assert not curve.singular_points
+    (line,) = curve.polylines
+    rest, arm = line[:, [0, 1, 4, 5]], line[:, 2:4] - line[:, :2]
+    assert np.allclose(rest, [0.5, 15**0.5 / 2] * 2, atol=1e-6)
+    assert np.allclose(np.hypot(*arm.T), 3, atol=1e-6)
+    turned = np.unwrap(np.arctan2(*arm.T[::-1]))
+    assert abs(turned[-1] - turned[0]) == pytest.approx(2 * np.pi, abs=1e-6)
+    blocks = self_motion_page((found, still))
+    assert isinstance(blocks[1], Grid)
+    assert "closed (certified)" in blocks[1].title
+    assert self_motion_data((found, still))[0]["curve"]["closed"]
+
+
+def test_the_curve_crosses_itself_at_a_change_point(tmp_path: Path) -> None:
+    """The arm of 3, 2, 1 with its hand 4 away: both circuits of the four-bar meet there, and only there."""
+    found = arm(tmp_path, 3, 0, 0, 180)
+    assert found.curve is not None
+    assert found.curve.value.closed
+    assert len(found.curve.value.singular_points) == 1
+    assert len(found.curve.value.polylines) == 2
 
 
 def test_null_motions_that_are_infinitesimal() -> None:

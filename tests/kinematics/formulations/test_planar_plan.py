@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 import sympy
 
+from singsym.classes.classify import classify
 from singsym.kinematics.formulations.planar_plan import plan
 from singsym.mechanism import MechanismError, load
 from singsym.mechanism.model import Exclusion, Limit, PointVelocity
@@ -112,3 +113,16 @@ def test_slides_in_a_loop_that_cannot_agree() -> None:
     assert plan(parallel_slides()).turns["two"] == (1, 0)
     with pytest.raises(MechanismError, match="slides in a loop"):
         plan(crooked)
+
+
+def test_a_slide_on_the_ground_is_no_strut() -> None:
+    """A slider that keeps off the crank's pivot: the ground does not turn with the line from pivot to slider.
+
+    With AB = 1, BC = 3 and AC at least 3 there is one curve, and on it one dead point, AC = 4.
+    """
+    limit = Limit(sympy.Symbol("length(P)"), low=sympy.Integer(3))
+    mechanism = replace(load("slider-crank"), limits=(limit,))
+    assert not plan(mechanism.resolved).struts
+    found = classify(mechanism)
+    assert [piece.extent.at_most for piece in found.configuration_space] == [1]
+    assert "1 configuration (" in found.summary[0]

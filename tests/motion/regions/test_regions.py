@@ -74,6 +74,18 @@ def test_a_limit_is_a_barrier_and_no_singularity() -> None:
     assert any("barriers" in block for block in regions_page("s", found) if isinstance(block, str))
 
 
+def test_a_slide_that_keeps_its_length_positive_has_arcs() -> None:
+    """From AC = 3, where cos A = 1/6, to the dead point AC = 4, with the crank up or down."""
+    limit = Limit(sympy.Symbol("length(P)"), low=sympy.Integer(3))
+    found = regions(replace(load("slider-crank"), limits=(limit,)))
+    assert found.verdict.is_yes
+    assert len(found.regions) == 2
+    for region in found.regions:
+        assert [b.is_singular for b in region.ends] == [True, False]
+        angles = np.abs(np.arctan2(region.points[:, 1], region.points[:, 0]))
+        assert angles.max() == pytest.approx(math.acos(1 / 6), abs=1e-6)
+
+
 def test_the_arm_of_two_links_has_two_regions() -> None:
     """The determinant is a multiple of sin B: the halves B > 0 and B < 0 of the torus."""
     found = regions(load("2r"), grid=24)
@@ -113,6 +125,37 @@ def test_the_five_bar_has_eight_regions() -> None:
     assert np.abs(np.array(cells) - sorted(counts)).max() <= 3
 
 
+def test_regions_with_the_same_signs_are_apart_by_a_plane() -> None:
+    """Two spherical cranks and two rods: both planes are those of D at the height of the axis A.
+
+    The configurations on such a plane are worked out in closed form here: none has the signs of both.
+    """
+    mechanism = load("spherical-5r")
+    found = regions(mechanism, grid=24)
+    assert len(found.regions) == found.at_least == 6
+    assert len({r.signs for r in found.regions}) == 4
+    assert found.verdict.is_undecided
+    linkage = numeric(mechanism)
+
+    def signs(q: np.ndarray) -> tuple[int, ...]:
+        return tuple(int(np.sign(x)) for label in ("4", "5") for x in linkage.condition(label, q))
+
+    assert all(signs(np.array([*r.values.values()])) == r.signs for r in found.regions)
+    for plane, sides in found.walls:
+        one, other = sides.index(1), sides.index(-1)
+        assert found.apart(one, other).is_yes
+        assert found.regions[one].signs == found.regions[other].signs == plane.signs
+        (name,) = plane.polynomial.variables
+        assert name == "Dz"
+        # B and D are unit vectors at 60 degrees from the axes z and x, C is perpendicular to both
+        for angle, side, way in product(np.linspace(-math.pi, math.pi, 101), (1, -1), (1, -1)):
+            b = np.array([math.cos(angle) * 3**0.5 / 2, math.sin(angle) * 3**0.5 / 2, 0.5])
+            d = np.array([0.5, side * 3**0.5 / 2, 0.0])
+            c = way * np.cross(b, d) / np.linalg.norm(np.cross(b, d))
+            q = np.concatenate([b, d, c, [3**0.5]])
+            assert signs(q) != plane.signs
+
+
 def test_larger_mobilities_are_refused_with_what_there_is_for_them() -> None:
     with pytest.raises(MechanismError, match="free box"):
         regions(load("3rpr"))
@@ -133,13 +176,13 @@ def test_a_free_box_of_the_slider_crank_ends_before_its_dead_points() -> None:
 
 def test_no_sample_in_a_free_box_of_a_platform_is_singular() -> None:
     """Six legs: configurations over random lengths inside have determinants of the legs' lines, worked out
-    here, of one sign."""
+    here, of one sign.  The box reaches a fifth of the way to a singular configuration that a search by
+    Lagrange's equations found as the nearest, and that is checked here."""
     platform = load("stewart-gough")
     linkage = numeric(platform)
     heights = {"B1": ["3/5", 1, "21/5"], "B2": ["8/3", 1, 4], "B3": ["17/5", 1, "17/3"]}
     centre = at(platform, {"points": heights})
-    found = free_box(centre, tests=30)
-    assert found.clear > 0
+    found = free_box(centre, tests=280)
     ends = np.array([found.inputs[label] for label in linkage.inputs])
     random = np.random.default_rng(1)
     lengths = random.uniform(ends[:, 0], ends[:, 1], (200, 6))
@@ -147,15 +190,26 @@ def test_no_sample_in_a_free_box_of_a_platform_is_singular() -> None:
     q = linkage.near(dict(zip(linkage.inputs, lengths.T, strict=True)), start)
     assert np.isfinite(q).all()
     places = linkage.points(q)
+    values = determinant_of_lines(places)
+    assert (np.sign(values) == np.sign(values[0])).all()
+    near = [0.42399467, 0.99460559, 4.24311599, 2.34502759, 0.39488728, 3.68536909, 3.33306714]
+    singular = linkage.points(np.array([*near, 0.23249397, 5.2211156]))
+    assert abs(determinant_of_lines(singular)) < 1e-6 * abs(values[0])
+    legs = [np.linalg.norm(singular[f"B{k}"] - singular[f"A{k}"]) for k in range(1, 7)]
+    away = np.linalg.norm(np.array(legs) - [centre.joints[label] for label in linkage.inputs])
+    assert found.clear * found.length > 0.2 * away
+    for name, (low, high) in found.variables.items():
+        k = linkage.names.index(name)
+        assert ((low <= q[:, k]) & (q[:, k] <= high)).all()
+
+
+def determinant_of_lines(places: dict[str, np.ndarray]) -> np.ndarray:
+    """Of the six legs' lines, in Pluecker's coordinates."""
     lines = []
     for k in range(1, 7):
         base, top = places[f"A{k}"], places[f"B{k}"]
         lines.append(np.concatenate([top - base, np.cross(base, top - base)], axis=-1))
-    values = np.linalg.det(np.stack(lines, axis=-2))
-    assert (np.sign(values) == np.sign(values[0])).all()
-    for name, (low, high) in found.variables.items():
-        k = linkage.names.index(name)
-        assert ((low <= q[:, k]) & (q[:, k] <= high)).all()
+    return np.linalg.det(np.stack(lines, axis=-2))
 
 
 def test_no_box_around_a_singular_configuration() -> None:

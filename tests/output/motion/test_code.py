@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import math
 import shutil
 import subprocess
 from pathlib import Path
@@ -13,10 +14,30 @@ import pytest
 
 from singsym.cli import main
 from singsym.kinematics.velocity import velocity_equation
-from singsym.mechanism import load
+from singsym.mechanism import load, loads
 from singsym.motion.numeric import NumericLinkage, numeric
 from singsym.output.motion.code import code
 
+STRICT = ("cc", "-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic", "-shared", "-fPIC")
+FAR = """
+name = "far"
+inputs = ["A", "E"]
+output = { velocity = "C" }
+
+[links]
+ground = { points = { A = [0, 0], E = [3, 0] } }
+AB = 2
+BC = RODS
+CD = RODS
+DE = 2
+
+[joints]
+A = "R"
+B = "R"
+C = "R"
+D = "R"
+E = "R"
+"""
 NAMES = ("zlatanov-2dof", "spherical-fourbar", "puma560", "3rrr", "slider-crank")
 
 
@@ -53,8 +74,7 @@ def test_c_compiles_without_a_warning_and_gives_the_same_numbers(name: str, tmp_
     linkage = numeric(load(name))
     source, library = tmp_path / "linkage.c", tmp_path / "linkage.so"
     source.write_text(code(linkage.equation, "c", name))
-    strict = ["cc", "-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic", "-shared", "-fPIC"]
-    subprocess.run([*strict, "-o", library, source, "-lm"], check=True)
+    subprocess.run([*STRICT, "-o", library, source, "-lm"], check=True)
     functions = ctypes.CDLL(str(library))
     point = linkage.sample(1, seed=2)[0]
     q = point[free(linkage)]
@@ -62,6 +82,38 @@ def test_c_compiles_without_a_warning_and_gives_the_same_numbers(name: str, tmp_
     prefix = "linkage_3rrr" if name == "3rrr" else name.replace("-", "_")
     functions[f"{prefix}_L"]((ctypes.c_double * len(q))(*q), found)
     assert list(found) == pytest.approx(linkage.L(point).ravel(), abs=1e-12)
+
+
+def test_parameters_are_arguments(tmp_path: Path) -> None:
+    """At a = 5/4 they give what the mechanism with that length gives."""
+    mechanism = load("zlatanov-hybrid")
+    there: dict[str, Any] = {}
+    exec(code(velocity_equation(mechanism), "python", "hybrid"), there)
+    assert there["PARAMETERS"] == ("a",)
+    assert "configuration" not in there
+    linkage = numeric(mechanism.with_parameters(a="5/4"))
+    point = linkage.sample(1, seed=2)[0]
+    q, expected = point[free(linkage)], linkage.L(point).ravel()
+    assert there["loops"](q, [1.25]) == pytest.approx([0] * len(there["loops"](q, [1.25])), abs=1e-9)
+    assert there["L"](q, [1.25]) == pytest.approx(expected, abs=1e-12)
+    if shutil.which("cc") is None:
+        return
+    source, library = tmp_path / "linkage.c", tmp_path / "linkage.so"
+    source.write_text(code(velocity_equation(mechanism), "c", "hybrid"))
+    subprocess.run([*STRICT, "-o", library, source, "-lm"], check=True)
+    found = (ctypes.c_double * len(expected))()
+    given = (ctypes.c_double * 1)(1.25)
+    ctypes.CDLL(str(library)).hybrid_L((ctypes.c_double * len(q))(*q), given, found)
+    assert list(found) == pytest.approx(expected, abs=1e-12)
+
+
+def test_where_a_mode_has_no_configuration_it_is_not_a_number() -> None:
+    """The rods of a five-bar do not reach from crank to crank: B and D are 7 apart, at most 6 would do."""
+    text = FAR.replace("RODS", "3")
+    there: dict[str, Any] = {}
+    exec(code(velocity_equation(loads(text)), "python", "far"), there)
+    assert np.isnan(there["configuration"]([math.pi, math.pi], (1,))).all()
+    assert np.isfinite(there["configuration"]([0.0, 0.0], (1,))).all()
 
 
 def test_a_name_cannot_end_its_comment() -> None:
@@ -75,5 +127,5 @@ def test_a_name_cannot_end_its_comment() -> None:
 def test_export_at_the_shell(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["export", "fourbar", "--to", "c"]) == 0
     assert "void fourbar_L(const double q[4]" in capsys.readouterr().out
-    assert main(["export", "zlatanov-hybrid"]) == 2
-    assert "no value of a" in capsys.readouterr().err
+    assert main(["export", "zlatanov-hybrid"]) == 0
+    assert "def L(q, parameters):" in capsys.readouterr().out

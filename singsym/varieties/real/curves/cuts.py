@@ -112,12 +112,13 @@ class CutCurve:
 
         Raises `Undecided` where that is not proven: the point may be too near to a removed one.
         """
-        middle = np.array([[float(b.mid()) for b in box]])
-        widths = [max(abs(e - m) for e in exact_bounds(b)) for b, m in zip(box, middle[0], strict=True)]
-        radius = float(max(widths)) * (1 + 1e-12) * np.sqrt(len(box)) + 1e-300
-        edge, spot = self._spot(Balls(middle, np.full_like(middle, radius)), -1)
+        edge, spot = self._spot(_around(box), -1)
         before = sum(cut.order(spot) < 0 for cut in self._cuts[edge])
         return next(k for k, nodes in enumerate(self._groups) if (f"part {edge}", before) in nodes)
+
+    def edge_of(self, box: Box) -> int:
+        """The number of the edge that a point of the curve in a box lies on, raising as `piece_of` does."""
+        return self._spot(_around(box), -1)[0]
 
     def _spot(self, ball: Balls, number: int) -> tuple[int, _Spot]:
         """The edge that a point lies on, and where."""
@@ -166,6 +167,14 @@ class CutCurve:
             found += [edge.ends[0]] if (f"part {k}", 0) in nodes else []
             found += [edge.ends[1]] if (f"part {k}", len(cuts)) in nodes else []
         return [end for end in found if end[0] == "singular"]
+
+
+def _around(box: Box) -> Balls:
+    """A ball that holds a box."""
+    middle = np.array([[float(b.mid()) for b in box]])
+    widths = [max(abs(e - m) for e in exact_bounds(b)) for b, m in zip(box, middle[0], strict=True)]
+    radius = float(max(widths)) * (1 + 1e-12) * np.sqrt(len(box)) + 1e-300
+    return Balls(middle, np.full_like(middle, radius))
 
 
 def _at_seam(spot: _Spot, count: int) -> _Spot:

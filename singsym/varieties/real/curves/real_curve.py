@@ -131,6 +131,27 @@ class RealCurve:
                 distinct.append(point)
         return premises.conclude(CutCurve(proof, tuple(distinct)))
 
+    def component_of(self, point: RealPoint) -> CurveComponent:
+        """The component through a point of the curve; raises `Undecided` where that is not proven.
+
+        >>> x, y = Ring(("x", "y")).gens
+        >>> curve = real_curve([x**2 + y**2 - 1])
+        >>> curve.component_of(real_points([x**2 + y**2 - 1, y]).value[0]).closed
+        True
+        """
+        if self._proof is None:
+            raise Undecided(f"the topology of the curve is {self.verdict}")
+        edges: list[tuple[int, int]] = [
+            (key, data["component"]) for *_, key, data in self.graph.edges(keys=True, data=True)
+        ]
+        at = [("singular", k) for k, s in enumerate(self._proof.stars) if s.point.coincides(point)]
+        near = {key for *_, key in self.graph.edges(at, keys=True)}
+        here = near if at else {CutCurve(self._proof, ()).edge_of(point.box)}
+        for key, component in edges:
+            if key in here:
+                return self.components[component]
+        raise Undecided("the point is isolated")
+
     def _zeros(
         self, exclusions: Sequence[Polynomial], premises: Premises, budget: Budget | None
     ) -> list[RealPoint]:
@@ -222,7 +243,7 @@ def _result(ring: Ring, topology: Known[Assembly], chosen: Known[CurveEquations]
         graph.add_edge(*edge.ends, key=k, polyline=edge.chain.points[:, kept])
     components: list[CurveComponent] = []
     isolated: list[RealPoint] = []
-    for number, nodes in enumerate(nx.connected_components(graph)):
+    for nodes in nx.connected_components(graph):
         arcs = list(graph.subgraph(nodes).edges(data=True))
         points = tuple(proof.stars[k].point for kind, k in sorted(nodes) if kind == "singular")
         if not arcs:
@@ -230,7 +251,7 @@ def _result(ring: Ring, topology: Known[Assembly], chosen: Known[CurveEquations]
             continue
         ends = sum(kind == "end" for kind, _ in nodes)
         for *_, data in arcs:
-            data["component"] = number
+            data["component"] = len(components)
         lines = tuple(data["polyline"] for *_, data in arcs)
         components.append(CurveComponent(names, not ends, ends, points, lines))
     certainty = weakest("certified", topology.certainty, chosen.certainty)

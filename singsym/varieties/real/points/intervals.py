@@ -6,7 +6,7 @@ balls by Arb (https://arblib.org), through python-flint.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from fractions import Fraction
 from functools import lru_cache
@@ -16,8 +16,6 @@ from flint import arb, arb_mat, ctx, fmpq
 from singsym.polynomials import Equations, Polynomial
 
 Box = tuple[arb, ...]
-_WIDE = 1e-12
-"""Radii that are larger are more than what is left of a number by rounding."""
 
 
 @contextmanager
@@ -104,19 +102,30 @@ def rank_at_least(matrix: Sequence[Sequence[arb]], rank: int) -> bool:
 
 def regular(matrix: Sequence[Sequence[arb]]) -> bool:
     """Whether a square matrix of balls is proven regular: an approximate inverse times it is near 1."""
-    size = len(matrix)
     inverse = _approximate_inverse(matrix)
     if inverse is None:
         return False
-    product = inverse * arb_mat([list(row) for row in matrix])
-    for i in range(size):
-        total = abs(product[i, i] - 1)
-        for j in range(size):
-            if j != i:
-                total = total + abs(product[i, j])
-        if not total < 1:
-            return False
-    return True
+    return is_dominant(inverse * arb_mat([list(row) for row in matrix]))
+
+
+def is_dominant(matrix: arb_mat) -> bool:
+    """Whether a square matrix of balls is proven regular as an H-matrix, as it is near 1.
+
+    For some weights each entry of the diagonal is larger than the others of its row: Neumaier (1990), 3.7.
+
+    >>> is_dominant(arb_mat([[1, 4], [arb(0, 0.2), 1]])), is_dominant(arb_mat([[1, 4], [arb(0, 0.3), 1]]))
+    (True, False)
+    """
+    size = range(matrix.nrows())
+    least = [[-matrix[i, j].abs_upper() if i != j else matrix[i, i].abs_lower() for j in size] for i in size]
+    middle = arb_mat([[arb(e.mid()) for e in row] for row in least])
+    try:
+        solved = middle.solve(arb_mat([[1] for _ in size]))
+    except ZeroDivisionError:
+        return False
+    weights = [arb(solved[i, 0].mid()) for i in size]
+    rows = (sum((e * w for e, w in zip(row, weights, strict=True)), arb(0)) for row in least)
+    return all(w > 0 for w in weights) and all(row > 0 for row in rows)
 
 
 def pivots(
@@ -159,34 +168,15 @@ def _approximate_inverse(matrix: Sequence[Sequence[arb]]) -> arb_mat | None:
     return arb_mat([[arb(inverse[i, j].mid()) for j in range(len(matrix))] for i in range(len(matrix))])
 
 
-def _over_the_fixed(f: Polynomial, box: Sequence[arb], unknowns: Sequence[str]) -> arb:
-    """The values of a polynomial where the unknowns are points and other coordinates balls.
-
-    Of wide balls by the mean value form, in which a coordinate that is in several terms counts once.
-    """
-    wide = [n for n in f.variables if n not in unknowns and box[f.ring.index(n)].rad() > _WIDE]
-    if not wide:
-        return evaluate(f, box)
-    middle = list(box)
-    for name in wide:
-        middle[f.ring.index(name)] = arb(box[f.ring.index(name)].mid())
-    total = evaluate(f, middle)
-    for name, slope in zip(wide, jacobian((f,), wide)[0], strict=True):
-        place = f.ring.index(name)
-        total = total + evaluate(slope, box) * (box[place] - middle[place])
-    return total
-
-
 def krawczyk(
     equations: Sequence[Polynomial],
     names: Sequence[str],
     box: Sequence[arb],
-    radius: Fraction | Mapping[str, Fraction],
+    radius: Fraction,
 ) -> Box | None:
     """A box proven to hold exactly one zero of a square system in `names`, the other coordinates held fixed.
 
-    box: in the order of the ring's names, midpoints near a zero; the unknowns are widened by `radius`,
-    one for all or each by its own.
+    box: in the order of the ring's names, midpoints near a zero; the unknowns are widened by `radius`.
     Returns the whole box with the sharpened unknowns, or `None` where the test proves nothing.  Where fixed
     coordinates are balls there is one zero for each choice from them.
     """
@@ -198,16 +188,16 @@ def krawczyk(
     places = [ring.index(name) for name in names]
     middle = list(box)
     wide = list(box)
-    for name, k in zip(names, places, strict=True):
+    width = ball(radius).upper()
+    for k in places:
         middle[k] = arb(box[k].mid())
-        width = ball(radius[name] if isinstance(radius, Mapping) else radius)
-        wide[k] = middle[k] + arb(0, width.upper())
+        wide[k] = middle[k] + arb(0, width)
     derivatives = jacobian(equations, names)
     slopes = [[evaluate(d, wide) for d in row] for row in derivatives]
     inverse = _approximate_inverse(slopes)
     if inverse is None:
         return None
-    values = arb_mat([[_over_the_fixed(f, middle, names)] for f in equations])
+    values = arb_mat([[evaluate(f, middle)] for f in equations])
     shift = inverse * values
     defect = inverse * arb_mat(slopes)
     offsets = [wide[k] - middle[k] for k in places]
