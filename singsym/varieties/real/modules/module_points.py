@@ -21,7 +21,7 @@ from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.elimination.linear_substitution import Substitution, solved_variable
 from singsym.elimination.memo import remember
 from singsym.polynomials import Equations, Polynomial, Ring
-from singsym.polynomials.block_form import Module, SolvingOrder, block_form
+from singsym.polynomials.block_form import Module, SolvingOrder, block_form, independent_parts
 from singsym.varieties.real.modules.assemblies import assemblies, dyad, is_simple, value_at
 from singsym.varieties.real.modules.coverings import coverings
 from singsym.varieties.real.modules.lifted_curve import is_tower, points_on_tower
@@ -62,24 +62,31 @@ def module_points(equations: Equations) -> Known[tuple[BoxPoint, ...]]:
 def has_no_assembly(equations: Equations) -> Verdict:
     """Whether some modules that determine their unknowns have no real solution: yes, or undecided.
 
-    So it is of a curve, a circle with dyads over it, where no loop is left.
+    So it is of a curve, a circle with dyads over it, where no loop is left; and of equations without a
+    variable in common, where it is so of some of them.
 
     >>> from singsym.polynomials import Ring
     >>> x, y, z = Ring(("x", "y", "z")).gens
     >>> has_no_assembly((x**2 - 4, (y - x) ** 2 - x - 1, y * z - 1, x + 1)).is_yes
     True
     """
-    if not equations:
-        return Verdict.undecided("there are no equations")
+    if equations:
+        for part in independent_parts(without_given(equations)[0]):
+            answer = _part_has_no_assembly(part)
+            if answer.is_yes:
+                return answer
+    return Verdict.undecided("modules do not show that there is no real point")
+
+
+def _part_has_no_assembly(equations: Equations) -> Verdict:
     own = used_ring(equations[0].ring, equations)
-    equations = tuple(map(own.convert, equations))
+    equations = tuple(dict.fromkeys((*own.relations, *map(own.convert, equations))))
     if comes_apart(equations):
         with attempt("modules without an assembly", patience.ASSEMBLIES.work):
             found = module_points(equations)
             if not found.value:
                 return Verdict.yes(found.certainty, reason="modules of the equations have no common assembly")
-    left, _ = without_given(equations)
-    over = next(towers(left), None) if left else None
+    over = next(towers(equations), None)
     if over is not None:
         with attempt("modules over a circle without an assembly", patience.ASSEMBLIES.work):
             curves = coverings(over, points_of, current())
