@@ -47,7 +47,6 @@ def miss_almost_all(tower: Triangular, free: Collection[str], polynomials: Seque
     prime, drawn = chance.sparing_prime(), chance.random("triangular fibres", *polynomials)
     fibre = _Fibre(prime, 1, {name: _scalar(1, drawn.randrange(prime), prime) for name in sorted(free)})
     for equation, name in reversed(tower):
-        current().check("points over values of coordinates")
         above = fibre.extended(equation.primitive(), name)
         if above is None:
             return False
@@ -74,6 +73,7 @@ class _Fibre:
         total = nmod_mat(self.size, self.size, self.prime)
         known: dict[tuple[str, ...], nmod_mat] = {(): _scalar(self.size, 1, self.prime)}
         for exponents, c in p.terms():
+            current().check("points over values of coordinates")
             names = tuple(n for n, e in zip(p.ring.names, exponents, strict=True) for _ in range(e))
             for k in range(1, len(names) + 1):
                 if names[:k] not in known:
