@@ -53,8 +53,8 @@ class PointNames:
     """Recognises polynomials as determinants of a configuration space's named points and axes.
 
     A name is given only where the determinant is the polynomial times a factor proved nonzero, on the circles
-    and spheres of the configuration space; the name carries that factor.  What the mechanism's architecture
-    suggests is tried first.
+    and spheres of the configuration space, or a number of times it up to rational multiples of all equations;
+    the name carries that factor.  What the mechanism's architecture suggests is tried first.
 
     >>> from singsym.kinematics.placement import ConfigurationSpace
     >>> from singsym.polynomials import Ring
@@ -90,7 +90,22 @@ class PointNames:
                     scale = value.exact_quotient(own)
                     if self.certifier.reason(scale) is not None:
                         return GeometricName(quantity, scale)
-        return None
+        form = self.certifier.modulo_multiples(own)
+        if (known := self._by_remainders.get(form.primitive())) is None:
+            return None
+        value, quantity = known
+        return GeometricName(quantity, polynomial.ring.constant(_ratio(value, form)))
+
+    @cached_property
+    def _by_remainders(self) -> dict[Polynomial, tuple[Polynomial, Quantity]]:
+        """The remainders of values modulo multiples of the loop equations, by their primitive forms."""
+        found: dict[Polynomial, tuple[Polynomial, Quantity]] = {}
+        for _, values in self._kinds():
+            for _, value, quantity in values:
+                form = self.certifier.modulo_multiples(value)
+                if not form.is_constant:
+                    found.setdefault(form.primitive(), (form, quantity))
+        return found
 
     def _kinds(self) -> Iterator[tuple[_Candidates, _Candidates]]:
         """What the architecture suggests, and then, where that is not enough, all determinants of points."""

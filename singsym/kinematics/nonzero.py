@@ -59,6 +59,10 @@ class Certifier:
         """See `ShortForms.normal_form`."""
         return self._forms.normal_form(polynomial)
 
+    def modulo_multiples(self, polynomial: Polynomial) -> Polynomial:
+        """See `ShortForms.modulo_multiples`."""
+        return self._forms.modulo_multiples(polynomial)
+
     def shorten(self, polynomial: Polynomial) -> Polynomial:
         """See `ShortForms.shorten`."""
         return self._forms.shorten(polynomial)

@@ -68,7 +68,9 @@ class ShortForms:
         return division(last), division(first)
 
     def modulo_multiples(self, polynomial: Polynomial) -> Polynomial:
-        """The remainder modulo sums of rational multiples of the equations: the same value, in other terms.
+        """The remainder of the normal form modulo sums of rational multiples of the equations' normal forms.
+
+        It has the same value in other terms; two polynomials whose difference is such a sum have the same.
 
         >>> R = Ring(("x", "y"))
         >>> x, y = R.gens
@@ -76,6 +78,7 @@ class ShortForms:
         >>> forms.modulo_multiples(x * y - y)
         1
         """
+        polynomial = self.normal_form(polynomial)
         for monomial, equation in self._echelon:
             if c := polynomial.value[monomial]:
                 polynomial = polynomial - equation * c
@@ -83,10 +86,9 @@ class ShortForms:
 
     @cached_property
     def _echelon(self) -> tuple[tuple[tuple[int, ...], Polynomial], ...]:
-        """Sums of multiples of the equations, each with a monomial that is in none of the later."""
+        """Sums of multiples of the normal forms, each with a monomial that is in none of the later."""
         found: list[tuple[tuple[int, ...], Polynomial]] = []
-        for equation in self.equations:
-            rest = equation
+        for rest in map(self.normal_form, self.equations):
             for monomial, known in found:
                 if c := rest.value[monomial]:
                     rest = rest - known * c

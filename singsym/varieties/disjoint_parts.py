@@ -50,12 +50,17 @@ def _parts(equations: Equations) -> Iterator[Equations]:
 
 
 def _groups(equations: Equations) -> Iterator[Equations]:
-    """Some of the equations: all in the variables of one of them, that are more than a dyad."""
+    """Some of the equations: all in the variables of one of them, that are more than a dyad.
+
+    First without those in fewer than half of these, which say where one of three moving points is.
+    """
     for last in reversed(equations):
         names = set(last.variables)
         group = tuple(p for p in equations if names.issuperset(p.variables))
-        if 2 < len(group) < len(equations) and len(names) <= MOST_VARIABLES:
-            yield group
+        between = tuple(p for p in group if 2 * len(p.variables) >= len(names))
+        for own in dict.fromkeys((between, group)):
+            if 2 < len(own) < len(equations) and len(names) <= MOST_VARIABLES:
+                yield own
 
 
 def _apart(group: Equations) -> tuple[Equations, ...] | None:

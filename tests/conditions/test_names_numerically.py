@@ -77,6 +77,9 @@ class Pose:
         """Plücker coordinates."""
         if ":" in text:
             base, axis = text.split(":")
+            if axis.startswith("n_"):
+                x, y = self.slides[axis.removeprefix("n_")]
+                return np.array([-y, x, self.points[base] @ [x, y]])
             direction = self.axes[axis]
             return np.concatenate([direction, np.cross(self.points[base], direction)])
         p, q = self.named(text, 2)
@@ -179,7 +182,7 @@ def check(factor: Factor, point: list[float], equation: VelocityEquation) -> Non
     left, *right = both_sides(factor, point, equation)
     if factor.text().startswith("±"):
         right = [abs(value) for value in right]
-    if "u_" in factor.text():
+    if re.search("[un]_", factor.text()):
         left, right = abs(left), [abs(value) for value in right]
     assert right == pytest.approx([left, left], rel=1e-8, abs=1e-9), factor.text()
 

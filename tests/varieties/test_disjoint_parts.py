@@ -75,3 +75,20 @@ def test_fixed_numbers_keep_what_is_known_of_them() -> None:
     for part in disjoint_parts(equations):
         assert set(ring.relations) <= set(part)
         assert all(p in ring.relations for p in part if p.variables == ("r",))
+
+
+def test_a_dyad_in_line_between_two_cranks_comes_apart() -> None:
+    """(u, v) in line with the ends of two cranks, 4 from the one and 7 from the other: |P - Q| is 3 or 11."""
+    ring = Ring(("px", "py", "qx", "qy", "u", "v"))
+    px, py, qx, qy, u, v = ring.gens
+    cranks = px**2 + py**2 - 1, (qx - 1) ** 2 + qy**2 - 25
+    legs = (u - px) ** 2 + (v - py) ** 2 - 16, (u - qx) ** 2 + (v - qy) ** 2 - 49
+    in_line = (qx - px) * (v - py) - (qy - py) * (u - px)
+    parts = disjoint_parts((*cranks, *legs, in_line))
+    assert len(parts) == 2
+    for end in (
+        Fraction(7, 4),
+        Fraction(-3, 4),
+    ):  # of |PQ| / 4 from P to (u, v): 7 from Q beyond it, or before
+        direction = 3 * u - 7 * px + 4 * qx if end > 1 else 11 * u - 7 * px - 4 * qx
+        assert sum(direction.primitive() in {p.primitive() for p in part} for part in parts) == 1

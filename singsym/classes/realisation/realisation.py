@@ -6,10 +6,7 @@ Hauenstein, Sottile, ACM Trans. Math. Softw. 38 (2012) 28.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import partial
 from itertools import chain
 
 from singsym.classes.realisation.certified_configuration import Names, configuration
@@ -18,22 +15,28 @@ from singsym.classes.realisation.dimension_bounds import (
     is_bounded,
     larger_parts,
     off_borders,
-    points_off_exclusions,
+)
+from singsym.classes.realisation.disjoint_pieces import in_parts
+from singsym.classes.realisation.finite_sets import (
+    CertifiedPoints,
+    admitted,
+    finitely_many,
+    isolated_points,
 )
 from singsym.classes.realisation.local_coordinates import are_missed
 from singsym.classes.result import Piece
 from singsym.classes.strata.branches import Found
 from singsym.classes.strata.occurrence import is_proven_empty, restricted
 from singsym.classes.strata.patches import Patch, unsplit
-from singsym.classes.strata.reflections import IDENTITY, image
+from singsym.classes.strata.reflections import image
 from singsym.effort import patience
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Undecided, current
 from singsym.effort.verdict import Known, Premises, Verdict, weakest
-from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.kinematics.placement import JointValue
 from singsym.polynomials import Equations
 from singsym.polynomials.unit_circles import Pair
+from singsym.varieties.disjoint_parts import disjoint_parts
 from singsym.varieties.real.dimension.extent import EMPTY, Extent
 from singsym.varieties.real.dimension.hyperplane_cuts import Cut, dimension_by_cuts
 from singsym.varieties.real.dimension.independent_coordinates import are_dependent
@@ -44,7 +47,6 @@ from singsym.varieties.real.dimension.real_dimension import (
     real_dimension,
 )
 from singsym.varieties.real.modules.dimension import dimension_bound, is_dimension_at_most
-from singsym.varieties.real.modules.module_points import comes_apart, module_points
 from singsym.varieties.real.numerical.sampling import numerical_codimension
 from singsym.varieties.real.points.boxed_point import BoxPoint
 from singsym.varieties.real.points.certified_point import Witness, find_witness
@@ -94,9 +96,6 @@ class Realised:
     def provisional(self) -> bool:
         """Whether a larger budget could say more."""
         return any(piece.provisional for piece in self.pieces)
-
-
-CertifiedPoints = tuple[RealPoint | BoxPoint, ...]
 
 
 def examined(task: RealTask) -> tuple[Piece, CertifiedPoints]:
@@ -155,7 +154,7 @@ def _realised(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, 
         return _given(piece, system, task)
     if component.dimension == 0:
         solutions = real_points(stratum.equations)
-        return _finite(piece, solutions.map(lambda found: _admitted(found, system, stratum.elsewhere)))
+        return _finite(piece, solutions.map(lambda found: admitted(found, system, stratum.elsewhere)))
     return _counted(*_exactly(piece, component_dimension(component, system)), system, stratum.elsewhere)
 
 
@@ -185,14 +184,24 @@ def images(piece: Piece, points: CertifiedPoints, task: RealTask) -> Realised:
 
 
 def _given(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, CertifiedPoints]:
+    """A set given by equations, by its disjoint parts where it is seen to have some."""
+    parts = [replace(system, equations=own) for own in disjoint_parts(system.equations)]
+    return in_parts([_given_in_one(piece, part, task) for part in parts])
+
+
+def _given_in_one(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, CertifiedPoints]:
     """A set given by equations: where their gradients are independent at a point, a manifold near it."""
     elsewhere = task.found.stratum.elsewhere
     dimension = len(system.ring.names) - len(system.closed_equations)
     if dimension <= 0:
-        points = _finitely_many(system, task)
+        points = finitely_many(system, task.found)
         if points is not None:
             return _finite(piece, points)
     codimension = numerical_codimension(system)
+    if dimension > 0 and (codimension is None or codimension[0] != len(system.closed_equations)):
+        isolated = isolated_points(system, task.found)
+        if isolated is not None:
+            return _finite(piece, isolated)
     patch = unsplit(system.closed_equations, system.ring)
     if codimension is None:
         empty = is_proven_empty(restricted(system, patch))
@@ -204,36 +213,6 @@ def _given(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, Cer
         if witness is not None and independent(system.closed_equations, witness.point):
             return _counted(*_bounded(piece, system, (dimension, witness), task), system, elsewhere)
     return _counted(*_singular(piece, system, patch), system, elsewhere)
-
-
-def _finitely_many(system: RealSystem, task: RealTask) -> Known[CertifiedPoints] | None:
-    """All points of a set: by modules, exactly, or off the exclusions where there are too many on them.
-
-    None where they are not found, or cannot be told from those of an image.
-    """
-    equations, images = system.closed_equations, task.found.images
-    ways: list[tuple[Callable[[], Known[CertifiedPoints]], float]] = [
-        (partial(real_points, equations), 1 / 3)
-    ]
-    if comes_apart(equations):
-        ways.insert(0, (partial(module_points, equations), 1 / 2))
-    if system.exclusions:
-        ways.append((partial(points_off_exclusions, system), 1 / 3))
-    for zeros, share in ways:
-        with suppress(NotZeroDimensional), attempt("finitely many points", share=share):
-            points = zeros().map(lambda found: _admitted(found, system, task.found.stratum.elsewhere))
-            boxed = [p for p in points.value if isinstance(p, BoxPoint)]
-            mirrored = [p.reflect(r) for r in images if r != IDENTITY for p in boxed]
-            [p.coincides(q) for p in mirrored for q in boxed]
-            return points
-    return None
-
-
-def _admitted(
-    solutions: Iterable[RealPoint | BoxPoint], system: RealSystem, elsewhere: tuple[Equations, ...]
-) -> CertifiedPoints:
-    """The solutions of the equations that are points of the set, and not elsewhere."""
-    return tuple(p for p in solutions if system.admits(p) and not _lies_in(p, elsewhere))
 
 
 def _bounded(
@@ -347,10 +326,6 @@ def _are_one(one: RealPoint | BoxPoint, two: RealPoint | BoxPoint) -> bool:
     return isinstance(one, BoxPoint) and isinstance(two, BoxPoint) and one.coincides(two)
 
 
-def _lies_in(point: RealPoint | BoxPoint, loci: tuple[Equations, ...]) -> bool:
-    return any(all(point.sign(p) == 0 for p in locus) for locus in loci)
-
-
 def _finite(piece: Piece, solutions: Known[CertifiedPoints]) -> tuple[Piece, CertifiedPoints]:
     """A set of these points."""
     points, known = solutions.value, solutions.certainty
@@ -404,7 +379,7 @@ def _counted(
         if not any(point.coincides(other) for other in distinct):
             distinct.append(point)
     known = weakest(piece.extent.bounded, samples.certainty)
-    return _finite(piece, Known(_admitted(distinct, system, elsewhere), known))
+    return _finite(piece, Known(admitted(distinct, system, elsewhere), known))
 
 
 def _samples(system: RealSystem, nonzero: Equations, borders: Equations) -> Known[tuple[RealPoint, ...]]:

@@ -12,6 +12,7 @@ from functools import cached_property
 from singsym.conditions.incidences.arms import Arm, arm
 from singsym.conditions.incidences.hinges import beside_hinges
 from singsym.conditions.incidences.platforms import Platform, platform
+from singsym.conditions.incidences.poles import through_poles
 from singsym.conditions.incidences.quantities import Quantity
 from singsym.conditions.incidences.slides import beside_slides
 from singsym.kinematics.nonzero import Certifier
@@ -57,6 +58,7 @@ class Incidences:
         elif self.platform is not None:
             yield from self.platform.values()
         yield from beside_slides(self.equation)
+        yield from through_poles(self.equation)
         yield from beside_hinges(self.equation)
 
     @property

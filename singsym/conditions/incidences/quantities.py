@@ -20,7 +20,8 @@ class Quantity:
     through A along the axis u, :u the couple about it.  Among three in space AB is the vector B - A, uxv is
     the vector product of two axes, v_J the velocity of the moved point where the joint J turns alone at the
     rate 1.  ABC among four is the plane with the normal AB x AC, and minus its product with A.  u_P is the
-    direction of the slide P as its column in L has it.
+    direction of the slide P as its column in L has it; A:n_P among three in the plane is the line through A
+    along its normal.
     """
 
     latex: str

@@ -22,6 +22,7 @@ from singsym.elimination.linear_substitution import Substitution, solved_variabl
 from singsym.elimination.memo import remember
 from singsym.polynomials import Equations, Polynomial, Ring
 from singsym.polynomials.block_form import Module, SolvingOrder, block_form, independent_parts
+from singsym.varieties.disjoint_parts import disjoint_parts
 from singsym.varieties.real.modules.assemblies import assemblies, dyad, is_simple, value_at
 from singsym.varieties.real.modules.coverings import coverings
 from singsym.varieties.real.modules.lifted_curve import is_tower, points_on_tower
@@ -70,15 +71,21 @@ def has_no_assembly(equations: Equations) -> Verdict:
     >>> has_no_assembly((x**2 - 4, (y - x) ** 2 - x - 1, y * z - 1, x + 1)).is_yes
     True
     """
-    if equations:
-        for part in independent_parts(without_given(equations)[0]):
-            answer = _part_has_no_assembly(part)
-            if answer.is_yes:
-                return answer
-    return Verdict.undecided("modules do not show that there is no real point")
+    if not equations:
+        return Verdict.undecided("there are no equations")
+    own = used_ring(equations[0].ring, equations)
+    premises, reasons = Premises(), dict[str, None]()
+    for piece in disjoint_parts(tuple(map(own.convert, equations))):
+        parts = map(_has_no_assembly, independent_parts(without_given(piece)[0]))
+        found = next((answer for answer in parts if answer.is_yes), None)
+        if found is None:
+            return Verdict.undecided("modules do not show that there is no real point")
+        premises.rest_on(found.certainty)
+        reasons[found.reason] = None
+    return Verdict.yes(premises.certainty, reason="; ".join(reasons))
 
 
-def _part_has_no_assembly(equations: Equations) -> Verdict:
+def _has_no_assembly(equations: Equations) -> Verdict:
     own = used_ring(equations[0].ring, equations)
     equations = tuple(dict.fromkeys((*own.relations, *map(own.convert, equations))))
     if comes_apart(equations):
