@@ -9,7 +9,7 @@ import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cached_property
+from functools import cache, cached_property
 from math import isqrt, lcm
 from typing import Any
 
@@ -216,6 +216,7 @@ def _gauss_sum(ring: Ring, name: str, d: int, order: int) -> Polynomial:
     return total if conductor == d else total / 2
 
 
+@cache
 def _cosine_constant(order: int) -> AlgebraicConstant:
     """cos(2 pi/m), the largest root of its minimal polynomial below 1."""
     number = sympy.cos(2 * sympy.pi / order)

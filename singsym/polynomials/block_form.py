@@ -96,6 +96,23 @@ def square_blocks(names: Mapping[int, Sequence[str]]) -> tuple[dict[int, str], .
     return tuple({k: unknown_of[k] for k in own} for own in ordered_components(unknown_of, needs))
 
 
+def independent_parts(equations: Sequence[Polynomial]) -> tuple[tuple[Polynomial, ...], ...]:
+    """Equations in parts that have only fixed numbers in common, in the order of their first ones.
+
+    >>> from singsym.polynomials import Ring
+    >>> x, y, z = Ring(("x", "y", "z")).gens
+    >>> independent_parts((x**2 - y, z**2 - 2, y - 1))
+    ((x^2 - y, y - 1), (z^2 - 2,))
+    """
+    graph: Any = nx.Graph()
+    graph.add_nodes_from(range(len(equations)))
+    for k, p in enumerate(equations):
+        constants = {c.name for c in p.ring.constants}
+        graph.add_edges_from((k, name) for name in p.variables if name not in constants)
+    parts = (sorted(n for n in part if isinstance(n, int)) for part in nx.connected_components(graph))
+    return tuple(tuple(equations[k] for k in part) for part in sorted(p for p in parts if p))
+
+
 def ordered_components(nodes: Iterable[int], edges: Iterable[tuple[int, int]]) -> list[list[int]]:
     """The strongly connected components of a graph, each sorted, and each before those that it leads to.
 

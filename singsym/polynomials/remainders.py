@@ -1,4 +1,4 @@
-"""Remainders on division in one variable, by polynomials with a rational leading coefficient in it.
+"""Remainders on division in one variable, mostly by polynomials with a rational leading coefficient in it.
 
 Source: division with remainder, by FLINT (https://flintlib.org).
 """
@@ -26,6 +26,20 @@ def remainder(polynomial: Polynomial, divisor: Polynomial, name: str) -> Polynom
     ring = _leading(polynomial.ring, (name,))
     divided = divmod(ring.convert(polynomial).value, ring.convert(divisor).value)[1]
     return polynomial.ring.convert(Polynomial(ring, divided))
+
+
+def pseudo_remainder(dividend: Polynomial, divisor: Polynomial, name: str) -> Polynomial:
+    """The same with any divisor: of a power of its leading coefficient times the dividend, primitive.
+
+    >>> x, y = Ring(("x", "y")).gens
+    >>> pseudo_remainder(x**2 + y**2 - 1, x * y - 2, "x")
+    y^4 - y^2 + 4
+    """
+    k, x = divisor.degree(name), divisor.ring.gen(name)
+    lead = divisor.coefficient(name, k)
+    while (d := dividend.degree(name)) >= k and dividend:
+        dividend = dividend * lead - divisor * dividend.coefficient(name, d) * x ** (d - k)
+    return dividend.primitive() if dividend else dividend
 
 
 def _leading(ring: Ring, names: tuple[str, ...]) -> Ring:

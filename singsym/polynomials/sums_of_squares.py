@@ -5,6 +5,8 @@ Source: Choi, Lam, Reznick, Proc. Symp. Pure Math. 58.2 (1995) 103-126; one Gram
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 from flint import fmpq
 
 from singsym.polynomials import Polynomial
@@ -33,6 +35,7 @@ def sum_of_squares(polynomial: Polynomial) -> tuple[int, tuple[Polynomial, ...]]
     return sign, tuple([*roots, polynomial.ring.one] if less < 0 else roots)
 
 
+@lru_cache(maxsize=2**13)
 def squares_less_constant(
     polynomial: Polynomial,
 ) -> tuple[int, tuple[tuple[fmpq, Polynomial], ...], fmpq] | None:
@@ -53,11 +56,12 @@ def squares_less_constant(
         return None
     sign = 1 if signs.pop() else -1
     half = sorted((tuple(e // 2 for e in m) for m in even), reverse=True)
+    places = {h: k for k, h in enumerate(half)}
     gram = {(h, h): sign * terms.get(tuple(2 * e for e in h), fmpq(0)) for h in half}
     for m, c in terms.items():
         if m in even:
             continue
-        pair = _pair(m, half)
+        pair = _pair(m, places)
         if pair is None:
             return None
         gram[pair] = sign * c / 2
@@ -68,12 +72,11 @@ def squares_less_constant(
     return sign, kept, sum((-d for d, root in squares if root.is_constant), start=fmpq(0))
 
 
-def _pair(m: Exponents, half: list[Exponents]) -> tuple[Exponents, Exponents] | None:
-    known = set(half)
+def _pair(m: Exponents, half: dict[Exponents, int]) -> tuple[Exponents, Exponents] | None:
     for a in half:
         b = tuple(x - y for x, y in zip(m, a, strict=True))
-        if b in known:
-            return (a, b) if half.index(a) < half.index(b) else (b, a)
+        if b in half:
+            return (a, b) if half[a] < half[b] else (b, a)
     return None
 
 

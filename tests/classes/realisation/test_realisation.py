@@ -97,6 +97,9 @@ def test_a_dimension_bounded_modulo_a_prime(monkeypatch: pytest.MonkeyPatch) -> 
 
     monkeypatch.setattr("singsym.classes.realisation.dimension_bounds.Ideal", Endless)
     monkeypatch.setattr("singsym.classes.realisation.dimension_bounds.is_dimension_at_most", lambda *_: False)
+    monkeypatch.setattr(
+        "singsym.classes.realisation.realisation.is_dimension_at_most", lambda *_: Known(False)
+    )
     ring = Ring(("x", "y", "z"))
     x, y, z = ring.gens
     circle = Found((), Stratum((x**2 + y**2 - 1, z - x * y), Defects(0, 0, 0, 0)))

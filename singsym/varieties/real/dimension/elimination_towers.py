@@ -3,7 +3,8 @@
 Lemma.  Let p = a x^k + ..., k > 0, vanish on a set.  Off the zeros of a, over each point of the other
 coordinates there are at most k points, and what follows without x from p and further equations holds for
 these coordinates: the dimension is not above that of their zeros.  On the zeros of a, both a and the rest of
-p vanish.
+p vanish.  Where one coordinate too many is left, further polynomials that vanish may have no common zero over
+almost all values of those left (see `triangular_fibres`).
 Source: Kalkbrener, J. Symb. Comput. 15 (1993) 143-167 (triangular representations); that real sums of squares
 are taken apart is singsym's own.
 """
@@ -15,7 +16,9 @@ from dataclasses import dataclass, field, replace
 
 from singsym.effort.budget import current
 from singsym.polynomials import Polynomial, Ring
+from singsym.polynomials.remainders import pseudo_remainder
 from singsym.polynomials.sums_of_squares import sum_of_squares
+from singsym.varieties.real.dimension.triangular_fibres import Triangular, miss_almost_all
 
 _LONGEST = 300
 """Longer polynomials are not factored, nor taken as equations for a variable."""
@@ -37,29 +40,61 @@ def is_dimension_at_most(
     >>> is_dimension_at_most(R, [x**2 + y**2 * z**2], [], 1)
     True
     """
-    tower = _Tower(ring, dimension)
-    return tower.holds(
-        _Case(tuple(equations), frozenset(p.primitive() for p in nonzero if p), frozenset(ring.names))
-    )
+    return _Tower(ring, dimension).holds(_case(ring, equations, nonzero, ()))
+
+
+def is_image_at_most(
+    ring: Ring,
+    equations: Sequence[Polynomial],
+    nonzero: Sequence[Polynomial],
+    dimension: int,
+    tower: Triangular,
+    others: tuple[Polynomial, ...],
+) -> bool:
+    """The same of the image of a set in the coordinates that are not given by a triangular set over it.
+
+    tower: this set, off the zeros of its leading coefficients; others: polynomials that vanish on all of it.
+    Variables are only eliminated from the equations, which may be of a larger dimension.
+
+    >>> x, y, z = Ring(("x", "y", "z")).gens
+    >>> is_image_at_most(x.ring, [x**2 + y**2 - 1], [], 0, ((x * z - 1, "z"),), (z - y,))
+    True
+    """
+    return _Tower(ring, dimension, others).holds(_case(ring, equations, nonzero, tower))
+
+
+def _case(
+    ring: Ring, equations: Iterable[Polynomial], nonzero: Iterable[Polynomial], tower: Triangular
+) -> _Case:
+    names = frozenset(ring.names).difference(name for _, name in tower)
+    return _Case(tuple(equations), frozenset(p.primitive() for p in nonzero if p), names, tower=tower)
 
 
 @dataclass(frozen=True)
 class _Case:
     """Zeros of equations off those of `nonzero`, projected to the coordinates in `names`.
 
-    variable: the one that is being eliminated.
+    variable: the one that is being eliminated; tower: what gives those that were, the last one at the end.
     """
 
     equations: tuple[Polynomial, ...]
     nonzero: frozenset[Polynomial]
     names: frozenset[str]
     variable: str = ""
+    tower: Triangular = ()
 
 
 @dataclass
 class _Tower:
+    """Bounds of cases.
+
+    others: further polynomials that vanish, in which nothing is eliminated; with them each case is tried in
+    one way, since what it comes to depends on what was eliminated before.
+    """
+
     ring: Ring
     dimension: int
+    others: tuple[Polynomial, ...] = ()
     known: dict[object, bool] = field(default_factory=dict)
 
     def holds(self, case: _Case, depth: int = 0) -> bool:
@@ -70,7 +105,9 @@ class _Tower:
             return all(self.holds(part, depth) for part in split)
         if len(case.names) - _independent(case.equations) <= self.dimension:
             return True
-        key = (frozenset(case.equations), case.nonzero, case.names, case.variable)
+        if self.others and len(case.names) == self.dimension + 1:
+            return miss_almost_all(case.tower, case.names, self.others)
+        key = (frozenset(case.equations), case.nonzero, case.names, case.variable, self.others and case.tower)
         if key in self.known:
             return self.known[key]
         # until more is known: a case inside itself proves nothing
@@ -112,7 +149,7 @@ class _Tower:
             if name not in best or cost < best[name][0]:
                 best[name] = cost, p
         ordered = sorted(best.items(), key=lambda item: item[1][0])
-        for name, (_, p) in ordered[:_WAYS]:
+        for name, (_, p) in ordered[: 1 if self.others else _WAYS]:
             yield self._eliminated(case, p, name)
 
     def _eliminated(self, case: _Case, p: Polynomial, name: str) -> tuple[_Case, ...]:
@@ -122,13 +159,14 @@ class _Tower:
         others = [q for q in case.equations if q is not p]
         holding = [q for q in others if q.degree(name) > 0]
         rest = [q for q in others if q.degree(name) <= 0]
-        reduced = [r for q in holding if len(r := _remainder(q, p, name)) <= _LONGEST]
+        reduced = [r for q in holding if len(r := pseudo_remainder(q, p, name)) <= _LONGEST]
         known = lead.is_constant or lead.primitive() in case.nonzero
         nonzero = case.nonzero if known else case.nonzero | {f for f, _ in lead.factors()}
         if k > 1 and any(r.degree(name) > 0 for r in reduced):
-            off = _Case((p, *rest, *reduced), nonzero, case.names, name)
+            off = _Case((p, *rest, *reduced), nonzero, case.names, name, case.tower)
         else:
-            off = _Case((*rest, *reduced), nonzero, case.names - {name})
+            tower = (*case.tower, (p, name))
+            off = _Case((*rest, *reduced), nonzero, case.names - {name}, tower=tower)
         return (off,) if known else (off, replace(case, equations=(lead, tail, *others), variable=""))
 
     def _choices(self, case: _Case) -> Iterator[tuple[tuple[int, ...], Polynomial, str]]:
@@ -145,16 +183,8 @@ class _Tower:
                 free = lead.is_constant or lead.primitive() in case.nonzero
                 growth = sum(map(len, holding)) * len(p)
                 cost = (not free, k > 1 and bool(holding), 0 if free else len(lead), growth * k, k)
-                yield tuple(map(int, cost)), p, name
-
-
-def _remainder(q: Polynomial, p: Polynomial, name: str) -> Polynomial:
-    """The pseudo-remainder by p: a power of its leading coefficient times q, less a multiple of p."""
-    k, x = p.degree(name), p.ring.gen(name)
-    lead = p.coefficient(name, k)
-    while (d := q.degree(name)) >= k and q:
-        q = q * lead - p * q.coefficient(name, d) * x ** (d - k)
-    return q.primitive() if q else q
+                first = (len(holding),) if self.others else ()
+                yield (*first, *map(int, cost)), p, name
 
 
 def _independent(equations: Iterable[Polynomial]) -> int:

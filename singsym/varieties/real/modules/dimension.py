@@ -14,6 +14,9 @@ from singsym.effort.verdict import Known, Premises
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Equations, Polynomial
 from singsym.polynomials.block_form import Module, with_last_modules
+from singsym.polynomials.remainders import pseudo_remainder
+from singsym.varieties.real.dimension.elimination_towers import is_image_at_most
+from singsym.varieties.real.dimension.triangular_fibres import Triangular
 from singsym.varieties.real.modules.assemblies import dyad, is_round
 
 
@@ -38,6 +41,44 @@ def dimension_bound(equations: Equations) -> Known[int] | None:
     with attempt("the dimension of a core", patience.FIRST_MODULE.work):
         return premises.conclude(_bound(core, dyads, core[0].ring.names, premises))
     return None
+
+
+def is_dimension_at_most(equations: Equations, nonzero: Sequence[Polynomial], dimension: int) -> Known[bool]:
+    """Whether the real zeros off those of `nonzero` are shown to have no larger dimension.
+
+    Of as many short equations as leave one dimension too many, the others cut out less: at almost all points
+    of the core, with the dyads over it, they have no common zero.  False proves nothing.
+
+    >>> c, s, x, y = Ring(("c", "s", "x", "y")).gens
+    >>> dyad_over_a_plane = ((x - c) ** 2 + (y - s) ** 2 - 4, (x - 3) ** 2 + y**2 - 4)
+    >>> is_dimension_at_most((*dyad_over_a_plane, c * x * y**2 + s * x**2 - y), (), 1).value
+    True
+    """
+    ring, premises = equations[0].ring, Premises()
+    shortest, most = sorted(equations, key=len), len(ring.names) - dimension - 1
+    others = tuple(shortest[max(most, 0) :])
+    core, dyads = _apart(*with_last_modules([p for p in equations if p not in others], 2))
+    if not core or not others:
+        return Known(False)
+    with attempt("the dimension of a core", patience.FIRST_MODULE.work):
+        left, tower = list(ring.names), list[tuple[Polynomial, str]]()
+        for k in reversed(range(len(dyads))):
+            left = [n for n in left if n not in dyads[k].unknowns]
+            if _bound_where_free(core, dyads[:k], dyads[k], left, premises) > dimension:
+                return Known(False)
+            tower += _triangular(dyads[k])
+        return premises.conclude(is_image_at_most(ring, core, nonzero, dimension, tuple(tower), others))
+    return Known(False)
+
+
+def _triangular(module: Module) -> Triangular:
+    """A dyad, one unknown after the other, off the zeros of a coefficient of its line."""
+    found = dyad(module)
+    assert found is not None
+    line = found.line_equation
+    x, y = module.unknowns if line.degree(module.unknowns[0]) > 0 else module.unknowns[::-1]
+    conic = next(p for p in module.equations if p.degree(x) > 1 or p.degree(y) > 1)
+    return (line, x), (pseudo_remainder(conic, line, x), y)
 
 
 def _apart(core: Equations, modules: Sequence[Module]) -> tuple[Equations, tuple[Module, ...]]:
@@ -68,11 +109,20 @@ def _bound(core: Equations, dyads: Sequence[Module], names: Collection[str], pre
         return premises.take(Ideal(below, tuple(map(below.convert, core))).dimension)
     *others, last = dyads
     left = [n for n in names if n not in last.unknowns]
-    finite = _bound(core, others, left, premises)
-    line = _lines(last)
+    return max(_bound(core, others, left, premises), _bound_where_free(core, others, last, left, premises))
+
+
+def _bound_where_free(
+    core: Equations, others: Sequence[Module], last: Module, left: Collection[str], premises: Premises
+) -> int:
+    """A bound for the zeros over which the last dyad turns freely; -1 where there are none.
+
+    left: the coordinates without its unknowns.
+    """
+    ring, line = core[0].ring, _lines(last)
     assert line is not None
     if premises.take(Ideal(ring, line).is_unit()):
-        return finite
+        return -1
     needed = {name for p in line for name in p.variables}
     grown, kept = (*core, *line), list[Module]()
     for module in reversed(others):
@@ -81,4 +131,4 @@ def _bound(core: Equations, dyads: Sequence[Module], names: Collection[str], pre
             needed.update(module.parents)
         else:
             kept.append(module)
-    return max(finite, 1 + _bound(grown, kept[::-1], left, premises))
+    return 1 + _bound(grown, kept[::-1], left, premises)

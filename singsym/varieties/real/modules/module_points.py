@@ -21,7 +21,7 @@ from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.elimination.linear_substitution import Substitution, solved_variable
 from singsym.elimination.memo import remember
 from singsym.polynomials import Equations, Polynomial, Ring
-from singsym.polynomials.block_form import Module, SolvingOrder, block_form
+from singsym.polynomials.block_form import Module, SolvingOrder, block_form, independent_parts
 from singsym.varieties.disjoint_parts import disjoint_parts
 from singsym.varieties.real.modules.assemblies import assemblies, dyad, is_simple, value_at
 from singsym.varieties.real.modules.coverings import coverings
@@ -63,7 +63,8 @@ def module_points(equations: Equations) -> Known[tuple[BoxPoint, ...]]:
 def has_no_assembly(equations: Equations) -> Verdict:
     """Whether some modules that determine their unknowns have no real solution: yes, or undecided.
 
-    So it is of a curve, a circle with dyads over it, where no loop is left.
+    So it is of a curve, a circle with dyads over it, where no loop is left; and of equations without a
+    variable in common, where it is so of some of them.
 
     >>> from singsym.polynomials import Ring
     >>> x, y, z = Ring(("x", "y", "z")).gens
@@ -74,23 +75,25 @@ def has_no_assembly(equations: Equations) -> Verdict:
         return Verdict.undecided("there are no equations")
     own = used_ring(equations[0].ring, equations)
     premises, reasons = Premises(), dict[str, None]()
-    for part in disjoint_parts(tuple(map(own.convert, equations))):
-        found = _has_no_assembly(part)
-        if not found.is_yes:
-            return found
+    for piece in disjoint_parts(tuple(map(own.convert, equations))):
+        parts = map(_has_no_assembly, independent_parts(without_given(piece)[0]))
+        found = next((answer for answer in parts if answer.is_yes), None)
+        if found is None:
+            return Verdict.undecided("modules do not show that there is no real point")
         premises.rest_on(found.certainty)
         reasons[found.reason] = None
     return Verdict.yes(premises.certainty, reason="; ".join(reasons))
 
 
 def _has_no_assembly(equations: Equations) -> Verdict:
+    own = used_ring(equations[0].ring, equations)
+    equations = tuple(dict.fromkeys((*own.relations, *map(own.convert, equations))))
     if comes_apart(equations):
         with attempt("modules without an assembly", patience.ASSEMBLIES.work):
             found = module_points(equations)
             if not found.value:
                 return Verdict.yes(found.certainty, reason="modules of the equations have no common assembly")
-    left, _ = without_given(equations)
-    over = next(towers(left), None) if left else None
+    over = next(towers(equations), None)
     if over is not None:
         with attempt("modules over a circle without an assembly", patience.ASSEMBLIES.work):
             curves = coverings(over, points_of, current())

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from singsym.polynomials import Ring
-from singsym.varieties.real.modules.dimension import dimension_bound
+from singsym.varieties.real.modules.dimension import dimension_bound, is_dimension_at_most
 
 R = Ring(("c", "s", "x", "y", "u", "v"))
 C, S, X, Y, U, V = R.gens
@@ -45,3 +45,23 @@ def test_a_core_with_a_free_unknown() -> None:
 
 def test_without_a_dyad_that_comes_last_nothing_is_said() -> None:
     assert dimension_bound((CRANK, C * S - X * Y)) is None
+
+
+def test_one_more_equation_leaves_less_of_a_linkage() -> None:
+    """The coupler of a four-bar is level in finitely many configurations, but always in a parallelogram.
+
+    A crank of 2 and a rocker of 2 on pivots 3 apart, with a coupler of 3: it is a parallelogram, or crossed.
+    """
+    crossed = (CRANK, (X - C) ** 2 + (Y - S) ** 2 - 9, (X - 3) ** 2 + Y**2 - 4, U, V)
+    level = (Y - S) * (C**2 * X - 5 * S * X**2 + 7 * X * Y + C * S * Y - 11)
+    assert is_dimension_at_most((CRANK, *dyad_over(5), U, V, level), (), 0).value
+    assert not is_dimension_at_most((*crossed, level), (), 0).value
+    assert is_dimension_at_most((*crossed, level), (), 1).value
+
+
+def test_what_is_left_where_a_dyad_turns_freely_counts() -> None:
+    """With the pivot on the crank's circle the dyad may turn about it, whatever is said of c beside."""
+    free = (CRANK, *dyad_over(2), U, V)
+    cut = (C - 2) * (C**2 + 3 * C * S - 5 * S**2 + 7 * C - 11)
+    assert not is_dimension_at_most((*free, cut), (), 0).value
+    assert is_dimension_at_most((*free, cut), (), 1).value

@@ -114,6 +114,18 @@ def test_a_circle_that_no_crank_reaches(radius: int, empty: bool) -> None:
     assert has_no_assembly(curve).is_yes == empty
 
 
+@pytest.mark.parametrize(("radius", "empty"), [(14, True), (13, False)])
+def test_what_turns_freely_beside_is_left_aside(radius: int, empty: bool) -> None:
+    """The same with a wheel that is in no other equation, and one of a radius of its own: r^2 = 3, r > 0."""
+    root = AlgebraicConstant("r", (-3, 0, 1), Fraction(1), Fraction(2))
+    ring = Ring(("u", "px", "py", "v", "cx", "cy", "r"), constants=(root,))
+    u, px, py, v, cx, cy, r = ring.gens
+    crank = px**2 + py**2 - 3 * r**2, (px - cx) ** 2 + (py - cy) ** 2 - 49
+    wheel = u**2 + v**2 - r
+    circle = (cx - 3) ** 2 + (cy + 1) ** 2 - radius**2
+    assert has_no_assembly((*ring.relations, wheel, *crank, circle)).is_yes == empty
+
+
 def test_a_fixed_number_is_no_unknown() -> None:
     """c r = 0 and c (c - 1) r = 0 with r = sqrt(3): c = 0, whichever of them is matched with what."""
     root = AlgebraicConstant("r", (-3, 0, 1), Fraction(1), Fraction(2))
