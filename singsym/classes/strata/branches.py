@@ -278,7 +278,7 @@ class _Exploring:
     def _decomposed(self, patch: Patch, system: RealSystem, images: tuple[Reflection, ...]) -> None:
         """The ranks on the components of a patch that may have real points."""
         known: tuple[Equations, ...] = ()
-        components = decompose(patch.generators, system.nonzero, ring=system.ring)
+        components = decompose(patch.generators, system.nonzero, ring=system.ring, excluded=system.exclusions)
         for component in self.premises.take(components):
             samples = self.premises.take(samples_of(component, system))
             if samples is not None:
