@@ -205,15 +205,22 @@ class _Exploring:
     """Whether all of it was not proven empty in a short time."""
 
     def explore(self) -> None:
-        """Search all patches; none of what is soon seen to be empty."""
+        """Search all patches of the real zeros; none of what is soon seen to be empty."""
         branch = self.branch
         whole = unsplit(branch.equations, branch.feasible.ring)
         system = restricted(branch.admitted, whole)
+        forced = self.premises.take(real_consequences(system, system.closed_equations))
+        if forced is None:
+            return
+        equations = (*branch.equations, *forced)
+        if forced:
+            whole = unsplit(equations, branch.feasible.ring)
+            system = restricted(branch.admitted, whole)
         if not points_on(system, whole, 1):
             if self.premises.grants(_is_soon_empty(system)):
                 return
             self.tried = True
-        parts = patches(branch.equations, branch.admitted.nonzero, branch.feasible.ring)
+        parts = patches(equations, branch.admitted.nonzero, branch.feasible.ring)
         chosen = representatives([p.generators for p in parts], branch.kept)
         for k, images in chosen:
             self.patch(parts[k], images, alone=len(chosen) == 1)
