@@ -44,6 +44,9 @@ from singsym.varieties.splitting import irreducible_factors
 MOST_SPLITS = 3
 """So often a part without known points is split by a variable before it is decomposed."""
 
+AT_ONCE = 0.05
+"""So much of the usual patience has what is asked of all branches, also of those with known points."""
+
 
 @dataclass(frozen=True)
 class Branch:
@@ -209,7 +212,8 @@ class _Exploring:
         branch = self.branch
         whole = unsplit(branch.equations, branch.feasible.ring)
         system = restricted(branch.admitted, whole)
-        forced = self.premises.take(real_consequences(system, system.closed_equations))
+        with patience.scaled(AT_ONCE):
+            forced = self.premises.take(real_consequences(system, system.closed_equations))
         if forced is None:
             return
         equations = (*branch.equations, *forced)

@@ -60,7 +60,7 @@ def is_proven_empty(
 
     def no_complex_point() -> Verdict:
         most = min(seconds, patience.HASTY_EMPTINESS.work) if hasty else seconds
-        with attempt("a proof that there is no complex point", most * longer, share=1 / 2):
+        with attempt("a proof that there is no complex point", most * longer):
             return chart.is_empty(patience.QUICK_EMPTINESS.work if modular and hasty else None)
         return Verdict.undecided("that there is no complex point was not shown in time")
 
