@@ -18,10 +18,11 @@ from singsym.effort.progress import Sink, report, to
 from singsym.effort.verdict import Known, Premises, weakest
 from singsym.elimination import engines
 from singsym.elimination.ideal import Ideal
-from singsym.elimination.linear_substitution import shortest_substitution
+from singsym.elimination.linear_substitution import Substitution, shortest_substitution
 from singsym.elimination.memo import remember
-from singsym.polynomials import Polynomial, Ring
-from singsym.varieties.irreducibility import Splitting, analyse, independent_variables, leading_exponents
+from singsym.polynomials import Equations, Polynomial, Ring
+from singsym.varieties.irreducibility import independent_variables, leading_exponents
+from singsym.varieties.soon import analysed, holds_one, is_inside, saturated
 from singsym.varieties.splitting import (
     factor_equations,
     irreducible_factors,
@@ -93,14 +94,18 @@ def decompose(
     nonzero: Sequence[Polynomial] = (),
     *,
     ring: Ring,
+    excluded: Sequence[Equations] = (),
     budget: Budget | None = None,
     progress: Sink | None = None,
 ) -> Known[tuple[Component, ...]]:
     """The pieces of V(equations) on which no polynomial of `nonzero` vanishes throughout.
 
-    Their union contains V(equations) minus V(product of nonzero), over the complex numbers, and none contains
-    another.  The relations of the ring's algebraic constants count as equations.  Where time ends a piece
-    is left as it is, not proven prime or of one dimension.  Raises `Undecided` where the budget ends.
+    excluded: sets that do not count, each given by several polynomials; pieces soon seen to lie in one are
+        left out.
+    With those sets, their union contains V(equations) minus V(product of nonzero), over the complex numbers,
+    and none contains another.  The relations of the ring's algebraic constants count as equations.  Where
+    time ends a piece is left as it is, not proven prime or of one dimension.  Raises `Undecided` where the
+    budget ends.
 
     >>> x, y = Ring(("x", "y")).gens
     >>> decompose([x**2 - y**2, x * y - y], [y], ring=x.ring).value
@@ -111,10 +116,16 @@ def decompose(
         return Known(())
     premises = Premises()
     given = (*ring.relations, *(ring.convert(p) for p in equations))
+    several = frozenset(tuple(map(ring.convert, group)) for group in excluded if len(group) > 1)
     with current(budget).part(), to(progress):
-        pieces = premises.take(_branch(ring, given, forbidden))
+        pieces = premises.take(_branch(ring, given, forbidden, several))
         full = [premises.take(_in_ring(piece, ring)) for piece in pieces]
-        kept = [c for c in full if not any(premises.take(c.vanishes(p)) for p in forbidden)]
+        kept = [
+            c
+            for c in full
+            if not any(premises.take(c.vanishes(p)) for p in forbidden)
+            and not premises.take(holds_one(c.ideal, several))
+        ]
         return premises.pass_on(prune(kept))
 
 
@@ -149,7 +160,7 @@ def _all_in_ring(pieces: Iterable[Component], ring: Ring) -> Known[tuple[Compone
 
 
 def _branch(
-    ring: Ring, equations: tuple[Polynomial, ...], nonzero: frozenset[Polynomial]
+    ring: Ring, equations: Equations, nonzero: frozenset[Polynomial], excluded: frozenset[Equations]
 ) -> Known[list[Component]]:
     """Branch on factors and substitute until every equation is irreducible, then work level by level."""
     current().check("decomposition")
@@ -163,18 +174,20 @@ def _branch(
         found: list[Component] = []
         for i, f in enumerate(chosen):
             # The part of V(f) inside an earlier factor is in an earlier branch.
-            found += premises.take(_branch(ring, (*rest, f), nonzero | frozenset(chosen[:i])))
+            found += premises.take(_branch(ring, (*rest, f), nonzero | frozenset(chosen[:i]), excluded))
         return premises.conclude(found)
     single = tuple(f[0] for f in factored)
     substitution = shortest_substitution(single)
     if substitution is None:
-        return _by_levels(used_ring(ring, single), single, nonzero)
+        return _by_levels(used_ring(ring, single), single, nonzero, excluded)
     smaller = ring.with_names(n for n in ring.names if n != substitution.name)
     remaining = irreducible_factors(substitution.apply(nonzero))
     if remaining is None:
         return Known([])
     equations = tuple(smaller.convert(p) for p in substitution.apply(single))
-    pieces = premises.take(_branch(smaller, equations, frozenset(smaller.convert(p) for p in remaining)))
+    forbidden = frozenset(smaller.convert(p) for p in remaining)
+    groups = _substituted(excluded, substitution, smaller)
+    pieces = premises.take(_branch(smaller, equations, forbidden, groups))
     return premises.conclude([_lifted(piece, substitution.equation) for piece in pieces])
 
 
@@ -194,8 +207,14 @@ def _lifted(piece: Component, equation: Polynomial) -> Component:
     return Component(Ideal(ring, generators), piece.prime, piece.dimension + free, piece.purity)
 
 
+def _substituted(
+    groups: frozenset[Equations], substitution: Substitution, smaller: Ring
+) -> frozenset[Equations]:
+    return frozenset(tuple(map(smaller.convert, substitution.apply(group))) for group in groups)
+
+
 def _by_levels(
-    ring: Ring, equations: tuple[Polynomial, ...], nonzero: frozenset[Polynomial]
+    ring: Ring, equations: Equations, nonzero: frozenset[Polynomial], excluded: frozenset[Equations]
 ) -> Known[list[Component]]:
     """Decompose the equations of the first few variables, then extend every piece by the next ones."""
     pieces = [Component(Ideal(ring.with_names(()), ()), True, 0, "Cohen-Macaulay")]
@@ -205,13 +224,15 @@ def _by_levels(
         inner = ring.with_names(level.names)
         added = tuple(inner.convert(p) for p in level.equations)
         known = frozenset(inner.convert(p) for p in nonzero if set(p.variables) <= set(level.names))
+        inside = [g for g in excluded if {n for p in g for n in p.variables} <= set(level.names)]
+        outside = frozenset(tuple(map(inner.convert, group)) for group in inside)
         found: list[Component] = []
         for piece in pieces:
             base = tuple(inner.convert(p) for p in piece.generators)
             fresh = len(level.names) - len(piece.ideal.ring.names)
             smallest = piece.dimension + fresh - len(added) if piece.is_pure else 0
             macaulay = piece.purity == "Cohen-Macaulay"
-            system = _System(inner, (*base, *added), known, smallest, macaulay)
+            system = _System(inner, (*base, *added), known, smallest, macaulay, outside)
             found += premises.take(_refine(system))
         pieces = list(premises.take(_all_in_ring(found, inner)))
     return premises.conclude(pieces)
@@ -222,7 +243,7 @@ def _by_levels(
 
 @dataclass(frozen=True)
 class _System:
-    """Equations to split, and what is known of their zeros outside those of `nonzero`.
+    """Equations to split, and what is known of their zeros outside those of `nonzero` and of `excluded`.
 
     smallest: no component of the set that is being split has a smaller dimension (Krull: each equation takes
     one at most off a set of a single dimension); the parts below it lie in others and are dropped.  macaulay:
@@ -234,9 +255,11 @@ class _System:
     nonzero: frozenset[Polynomial]
     smallest: int
     macaulay: bool = False
+    excluded: frozenset[Equations] = frozenset()
 
     def plus(self, p: Polynomial, nonzero: Iterable[Polynomial] = ()) -> _System:
-        return _System(self.ring, (*self.equations, p), self.nonzero | frozenset(nonzero), self.smallest)
+        more = self.replaced((*self.equations, p), same_ideal=False)
+        return replace(more, nonzero=self.nonzero | frozenset(nonzero))
 
     def replaced(self, equations: Iterable[Polynomial], *, same_ideal: bool) -> _System:
         return replace(self, equations=tuple(equations), macaulay=self.macaulay and same_ideal)
@@ -269,7 +292,9 @@ def _refined(system: _System) -> Known[tuple[Component, ...]]:
     reduced = tuple(smaller.convert(p) for p in substitution.apply(single))
     forbidden = frozenset(smaller.convert(p) for p in nonzero)
     premises = Premises()
-    pieces = premises.take(_refine(_System(smaller, reduced, forbidden, system.smallest, system.macaulay)))
+    groups = _substituted(system.excluded, substitution, smaller)
+    inner = replace(system, ring=smaller, equations=reduced, nonzero=forbidden, excluded=groups)
+    pieces = premises.take(_refine(inner))
     return premises.conclude(tuple(_lifted(piece, substitution.equation) for piece in pieces))
 
 
@@ -288,7 +313,8 @@ def _by_basis(system: _System) -> Known[tuple[Component, ...]]:
     if basis[0].is_constant:
         return premises.conclude(())
     dimension = len(independent_variables(leading_exponents(basis), len(system.ring.names)))
-    if dimension < system.smallest or any(premises.take(ideal.contains(p)) for p in system.nonzero):
+    left_out = (*((p,) for p in system.nonzero), *system.excluded)
+    if dimension < system.smallest or premises.take(holds_one(ideal, left_out)):
         return premises.conclude(())
     factored = factor_equations(basis, system.nonzero)
     if factored is None:
@@ -314,18 +340,20 @@ def _by_eliminant(system: _System, given: Known[Ideal], dimension: int) -> Known
     proven = premises.certainty == "proven"
     if len(ideal.generators) == 1:
         return premises.conclude((Component(ideal, proven, dimension, "Cohen-Macaulay"),))
-    found = premises.take(_analysed(ideal, system.macaulay and system.smallest == dimension))
+    found = premises.take(analysed(ideal, system.macaulay and system.smallest == dimension))
     if found.factors and not any(premises.take(ideal.contains(f)) for f in found.factors):
         parts = premises.take(_along(system, ideal, found.factors))
         pieces = [p for part in parts for p in premises.take(_refine(part))]
         return premises.pass_on(_all_in_ring(pieces, system.ring))
+    if not found.prime and premises.take(is_inside(ideal, system.excluded)):
+        return premises.conclude(())
     if not found.prime and (primes := premises.take(_by_engine(given))):
         return premises.conclude(primes)
     purity: Purity = "Cohen-Macaulay" if found.macaulay else "unmixed"
     if found.beside is not None and found.beside.is_constant:
         return premises.conclude((Component(ideal, proven and found.prime, dimension, purity),))
     if found.beside is not None and len(found.beside) <= _LONGEST_CUT:
-        main = _saturated(ideal, found.beside)
+        main = saturated(ideal, found.beside)
         if main is not None:
             basis = main.value.groebner_basis()
             prime = found.prime and given.is_proven and main.is_proven and basis.is_proven
@@ -348,7 +376,7 @@ def _along(system: _System, ideal: Ideal, factors: Sequence[Polynomial]) -> Know
         return Known(plain)
     apart = list[_System]()
     for f in factors:
-        outside = _saturated(ideal, _product([g for g in factors if g is not f], system.ring))
+        outside = saturated(ideal, _product([g for g in factors if g is not f], system.ring))
         if outside is None:
             return Known(plain)
         apart.append(system.replaced((*premises.take(outside).generators, f), same_ideal=False))
@@ -365,7 +393,7 @@ def _smaller(
     for g in main.generators if main.dimension > system.smallest else ():
         if premises.take(ideal.contains(g)):
             continue
-        rest = _saturated(ideal, g)
+        rest = saturated(ideal, g)
         apart = system.plus(beside)
         if rest is not None:
             apart = system.replaced(premises.take(rest).generators, same_ideal=False)
@@ -374,20 +402,6 @@ def _smaller(
         if rest is None:
             break
     return premises.conclude(tuple(found))
-
-
-def _saturated(ideal: Ideal, polynomial: Polynomial) -> Known[Ideal] | None:
-    """The ideal of the zeros outside those of a polynomial; None where it is not found soon."""
-    with attempt("decomposition", SPLITTING.work):
-        return ideal.saturate(polynomial)
-    return None
-
-
-def _analysed(ideal: Ideal, unmixed: bool) -> Known[Splitting]:
-    with attempt("decomposition", SPLITTING.work):
-        return analyse(ideal, macaulay=unmixed)
-    # what was known before is no less true
-    return Known(Splitting(beside=ideal.ring.one, macaulay=True) if unmixed else Splitting())
 
 
 def _by_engine(ideal: Known[Ideal]) -> Known[tuple[Component, ...]]:

@@ -139,6 +139,20 @@ def test_nonzero_drops_whole_components_only() -> None:
     assert zeros(x**2 + y**2 - 1, nonzero=(x - 1,)) == bases((x**2 + y**2 - 1,))
 
 
+def test_pieces_in_sets_that_do_not_count_are_left_out() -> None:
+    """Of the plane x = 0, the line y = z = 0 and, in another order, what lies in a set only as a whole."""
+    plane, line = bases((x,)), bases((y, z))
+
+    def left(*excluded: Equations) -> set[frozenset[Polynomial]]:
+        found = decompose((x * y, x * z), ring=R, excluded=excluded).value
+        return {frozenset(c.generators) for c in found}
+
+    assert left() == left((x, y), (y, z - 1)) == plane | line
+    assert left((z, y + z)) == plane
+    assert left((x, x * z)) == line
+    assert left((x, x * z), (y, z)) == set()
+
+
 def test_progress_and_budget() -> None:
     forget()
     events: list[object] = []

@@ -42,8 +42,8 @@ def pace(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Ite
             return lambda *given: nothing if rng.random() < fails else work(*given)
 
         for name, nothing in (
-            ("_analysed", Known(Splitting())),
-            ("_saturated", None),
+            ("analysed", Known(Splitting())),
+            ("saturated", None),
             ("_by_engine", Known(())),
         ):
             monkeypatch.setattr(decomposition, name, at_times(getattr(decomposition, name), nothing))

@@ -170,6 +170,9 @@ def _with_locus(
         minor = expanded(block.select(i, j))
         if not minor:
             continue
+        if not exact and ground.seems_zero(minor):
+            # without it the zeros are a larger set, if that
+            continue
         usable = highest or (i, j) == largest
         if not (usable or premises.take(_is_rank(block, ground, certifier, (i, j)))):
             # the rank may be higher where only this minor does not vanish

@@ -19,13 +19,20 @@ from singsym.classes.strata.occurrence import (
 )
 from singsym.classes.strata.patches import Patch, patches, unsplit
 from singsym.classes.strata.ranks import DefectBounds, RankProblem, Stratum, ranked
-from singsym.classes.strata.reflections import IDENTITY, Reflection, compose, image, keeps, representatives
+from singsym.classes.strata.reflections import (
+    IDENTITY,
+    Reflection,
+    compose,
+    image,
+    keeps,
+    permuting,
+    representatives,
+)
 from singsym.classes.taxonomy.types import SingularityType
 from singsym.effort import patience
 from singsym.effort.budget import Undecided, current
 from singsym.effort.verdict import Certainty, Premises, Verdict
 from singsym.elimination import engines
-from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Equations, Polynomial
 from singsym.polynomials.unit_circles import unit_circles
 from singsym.varieties.decomposition import decompose
@@ -36,6 +43,9 @@ from singsym.varieties.splitting import irreducible_factors
 
 MOST_SPLITS = 3
 """So often a part without known points is split by a variable before it is decomposed."""
+
+AT_ONCE = 0.05
+"""So much of the usual patience has what is asked of all branches, also of those with known points."""
 
 
 @dataclass(frozen=True)
@@ -75,14 +85,27 @@ class Branch:
 
     @cached_property
     def kept(self) -> tuple[Reflection, ...]:
-        """The symmetries of this part."""
+        """The symmetries of this part, and of all that is left out here or counted elsewhere.
+
+        Lemma: such a symmetry carries the search of a set in this part over to that of its image, with all
+        that is left out and counted elsewhere: no point is counted twice, and none is lost.
+        """
         sets = (self.equations, *self.removed)
-        return tuple(r for r in self.symmetries if all(keeps(r, equations) for equations in sets))
+        own = [r for r in self.symmetries if all(keeps(r, equations) for equations in sets)]
+        return permuting(self.elsewhere, own)
 
     @cached_property
     def admitted(self) -> RealSystem:
         """The feasible set off what other branches search."""
         return replace(self.feasible, exclusions=(*self.feasible.exclusions, *self.removed))
+
+    def part(self, equations: Equations, images: tuple[Reflection, ...]) -> Branch:
+        """One of the parts that this branch comes apart into, for all of them that are its images."""
+        return replace(self, equations=equations, images=self.with_images(images))
+
+    def with_images(self, images: tuple[Reflection, ...]) -> tuple[Reflection, ...]:
+        """Those under which something in this branch stands for others, some of them in it."""
+        return tuple(dict.fromkeys(compose(r, other) for r in self.images for other in images))
 
     def within(
         self,
@@ -140,7 +163,8 @@ def explore(branch: Branch) -> Explored:
     try:
         with current().part(branch.seconds, branch.memory_mb):
             if len(parts := disjoint_parts(branch.equations)) > 1:
-                return Explored(following=tuple(replace(branch, equations=part) for part in parts))
+                chosen = representatives(parts, branch.kept)
+                return Explored(following=tuple(branch.part(parts[k], images) for k, images in chosen))
             if (known := _point_by_point(branch)) is not None:
                 return known
             work.explore()
@@ -163,7 +187,7 @@ def _point_by_point(branch: Branch) -> Explored | None:
         return None
     own = [defects for defects in found.value if defects.types not in branch.complete_types]
     strata = (Stratum(branch.equations, d, branch.removed, elsewhere=branch.elsewhere) for d in own)
-    parts = tuple(part for s in strata for part in _apart(Found(branch.path, s, branch.images)))
+    parts = tuple(Found(branch.path, s, branch.images) for s in strata)
     return Explored(parts, certainty=found.certainty)
 
 
@@ -184,16 +208,24 @@ class _Exploring:
     """Whether all of it was not proven empty in a short time."""
 
     def explore(self) -> None:
-        """Search all patches; none of what is soon seen to be empty."""
+        """Search all patches of the real zeros; none of what is soon seen to be empty."""
         branch = self.branch
         whole = unsplit(branch.equations, branch.feasible.ring)
         system = restricted(branch.admitted, whole)
+        with patience.scaled(AT_ONCE):
+            forced = self.premises.take(real_consequences(system, system.closed_equations))
+        if forced is None:
+            return
+        equations = (*branch.equations, *forced)
+        if forced:
+            whole = unsplit(equations, branch.feasible.ring)
+            system = restricted(branch.admitted, whole)
         if not points_on(system, whole, 1):
             if self.premises.grants(_is_soon_empty(system)):
                 return
             self.tried = True
-        parts = patches(branch.equations, branch.admitted.nonzero, branch.feasible.ring)
-        chosen = list(representatives([p.generators for p in parts], branch.kept))
+        parts = patches(equations, branch.admitted.nonzero, branch.feasible.ring)
+        chosen = representatives([p.generators for p in parts], branch.kept)
         for k, images in chosen:
             self.patch(parts[k], images, alone=len(chosen) == 1)
 
@@ -257,7 +289,7 @@ class _Exploring:
     def _decomposed(self, patch: Patch, system: RealSystem, images: tuple[Reflection, ...]) -> None:
         """The ranks on the components of a patch that may have real points."""
         known: tuple[Equations, ...] = ()
-        components = decompose(patch.generators, system.nonzero, ring=system.ring)
+        components = decompose(patch.generators, system.nonzero, ring=system.ring, excluded=system.exclusions)
         for component in self.premises.take(components):
             samples = self.premises.take(samples_of(component, system))
             if samples is not None:
@@ -282,7 +314,7 @@ class _Exploring:
         if found.stratum is not None:
             loci = (*branch.removed, *found.stratum.loci)
             stratum = replace(found.stratum, loci=loci, elsewhere=part.elsewhere)
-            self.found += _apart(Found(branch.path, stratum, part.images))
+            self.found.append(Found(branch.path, stratum, part.images))
         removed: tuple[Equations, ...] = ()
         for whole, defect_bounds in found.loci.items():
             for locus in split_product(whole):
@@ -291,47 +323,21 @@ class _Exploring:
                     removed = (*removed, locus)
 
     def _split(self, patch: Patch, polynomial: Polynomial, images: tuple[Reflection, ...]) -> None:
-        """A patch as two branches: the zeros of a polynomial and the rest."""
+        """A patch as two branches: the zeros of a polynomial, where it has any, and the rest."""
         part = self._part(images)
+        certifier = Ground(patch).certifier(self.branch.admitted, ())
         removed: tuple[Equations, ...] = ()
         for factor in split_product((polynomial,)):
-            self.following.append(part.within(factor, removed, patch.generators, {}))
+            if certifier.reason(*factor) is None:
+                self.following.append(part.within(factor, removed, patch.generators, {}))
             removed = (*removed, factor)
         self.following.append(part.within((), removed, patch.generators, {}))
 
     def _part(self, images: tuple[Reflection, ...], known: tuple[Equations, ...] = ()) -> Branch:
         """The branch with the images of one patch, and with what was looked at before."""
         branch = self.branch
-        all_images = tuple(dict.fromkeys(compose(r, other) for r in branch.images for other in images))
-        return replace(branch, images=all_images, elsewhere=(*branch.elsewhere, *self.earlier, *known))
-
-
-def _apart(found: Found) -> list[Found]:
-    """A stratum with its images, each by itself where what is searched elsewhere is not its own image.
-
-    What an image shares with other strata is then not the image of what the stratum shares with them.
-    """
-    elsewhere = {frozenset(p.primitive() for p in locus) for locus in found.stratum.elsewhere}
-    mapped = (image(locus, r) for r in found.images for locus in found.stratum.elsewhere)
-    if all(frozenset(p.primitive() for p in locus) in elsewhere for locus in mapped):
-        return [found]
-    return [_image_of(found, r) for r in found.images]
-
-
-def _image_of(found: Found, reflection: Reflection) -> Found:
-    stratum = found.stratum
-    component = stratum.component
-    if component is not None:
-        ideal = component.ideal
-        turned = Ideal(ideal.ring, image(ideal.generators, reflection))
-        component = replace(component, ideal=turned)
-    own = replace(
-        stratum,
-        equations=image(stratum.equations, reflection),
-        loci=tuple(image(locus, reflection) for locus in stratum.loci),
-        component=component,
-    )
-    return Found(image(found.path, reflection), own)
+        elsewhere = (*branch.elsewhere, *self.earlier, *known)
+        return replace(branch, images=branch.with_images(images), elsewhere=elsewhere)
 
 
 def _is_soon_empty(system: RealSystem) -> Verdict:

@@ -92,6 +92,10 @@ class Ground:
         exclusions = tuple(group for group in groups if any(group))
         return Certifier(ConfigurationSpace(feasible.ring, rest, exclusions, positive))
 
+    def seems_zero(self, polynomial: Polynomial) -> bool:
+        """Whether a polynomial is small at all known points, and a proof that it vanishes may take long."""
+        return self.component is None and not is_large(polynomial, self.samples)
+
     def vanishes(self, polynomial: Polynomial, certifier: Certifier) -> Known[bool]:
         """Whether a polynomial is zero on the ground, where True is as certain as is said.
 

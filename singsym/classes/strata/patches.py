@@ -10,7 +10,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
-from itertools import product
 from operator import itemgetter
 
 from flint import fmpq
@@ -162,28 +161,52 @@ def _shortened(equations: Sequence[Polynomial], thorough: bool) -> list[Polynomi
 
 @lru_cache(maxsize=100_000)
 def _without(p: Polynomial, q: Polynomial, thorough: bool) -> Polynomial | None:
-    """p minus the multiple of q, by a number or a term, that leaves fewest terms; None without a gain."""
+    """p minus the multiple of q, by a number or a term, that leaves fewest terms; None without a gain.
+
+    Terms of the multiple are lost where they cancel one of p, and gained where they meet none: more than half
+    of them have to meet some.
+    """
     terms, other = _terms(p), _terms(q)
-    met: Counter[tuple[int, ...]] = Counter()
-    cancelled: Counter[tuple[tuple[int, ...], fmpq]] = Counter()
-    pairs = product(terms, other) if thorough else ((m, m) for m in other if m in terms)
-    for m, n in pairs:
-        quotient = tuple(i - j for i, j in zip(m, n, strict=True))
-        if min(quotient) >= 0:
-            met[quotient] += 1
-            cancelled[quotient, terms[m] / other[n]] += 1
-    # terms of the multiple are lost where they cancel one of p, and gained where they meet none
-    gains = ((count + met[place[0]], place) for place, count in cancelled.items())
-    gain, (quotient, ratio) = max(gains, default=(0, ((), fmpq(0))), key=itemgetter(0))
-    if gain <= len(other):
+    names = len(p.ring.names)
+    guard = sum(_GUARD << _BITS * i for i in range(names))
+    met: Counter[int] = Counter()
+    if thorough:
+        guarded = [m | guard for m in terms]
+        met.update(d for m in guarded for n in other if (d := m - n) & guard == guard)
+    else:
+        met[guard] = sum(m in terms for m in other)
+    best, chosen = (len(other), 0, 0), (0, fmpq(0))
+    places = {n: i for i, n in enumerate(other)}
+    for quotient, count in met.items():
+        if 2 * count <= len(other):
+            continue
+        cancelled: Counter[fmpq] = Counter()
+        first: dict[fmpq, tuple[int, int]] = {}
+        for i, m in enumerate(terms):
+            if (n := m - quotient + guard) in other:
+                ratio = terms[m] / other[n]
+                cancelled[ratio] += 1
+                first.setdefault(ratio, (-i, -places[n]))
+        gain, ratio = max(((count + k, r) for r, k in cancelled.items()), key=itemgetter(0))
+        if gain > len(other) and (gain, *first[ratio]) > best:
+            best, chosen = (gain, *first[ratio]), (quotient - guard, ratio)
+    if best[0] == len(other):
         return None
-    candidate = p - q * p.ring.from_dict({quotient: ratio})
+    quotient, ratio = chosen
+    exponents = tuple(quotient >> _BITS * i & _GUARD - 1 for i in range(names))
+    candidate = p - q * p.ring.from_dict({exponents: ratio})
     return candidate.primitive() if candidate else candidate
 
 
+_BITS = 16
+_GUARD = 1 << _BITS - 1
+"""Exponents are packed in one number, with a bit above each that shows where a difference is not negative."""
+
+
 @lru_cache(maxsize=10_000)
-def _terms(p: Polynomial) -> dict[tuple[int, ...], fmpq]:
-    return dict(p.terms())
+def _terms(p: Polynomial) -> dict[int, fmpq]:
+    """The coefficients of a polynomial by packed exponents."""
+    return {sum(int(e) << _BITS * i for i, e in enumerate(m) if e): c for m, c in p.terms()}
 
 
 def _parallel(equations: Sequence[Polynomial]) -> list[tuple[Polynomial, Polynomial]]:

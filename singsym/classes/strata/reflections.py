@@ -9,7 +9,7 @@ sign or none does, and the rank of a matrix where each entry changes as its row 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from functools import reduce
+from functools import lru_cache, reduce
 from itertools import combinations
 
 from flint import nmod_mat
@@ -109,7 +109,9 @@ def image(equations: Iterable[Polynomial], reflection: Reflection) -> tuple[Poly
     return tuple(_reflected(p, reflection) for p in equations)
 
 
+@lru_cache(maxsize=2**15)
 def _reflected(p: Polynomial, reflection: Reflection) -> Polynomial:
+    """Kept, because the same few polynomials are compared with their images again and again."""
     changed = p.reflect(reflection)
     return changed if not p or changed.value.coeffs()[0] == p.value.coeffs()[0] else -changed
 
@@ -117,30 +119,51 @@ def _reflected(p: Polynomial, reflection: Reflection) -> Polynomial:
 def keeps(reflection: Reflection, equations: Iterable[Polynomial]) -> bool:
     """Whether a set of equations is its own image, up to signs of the equations."""
     known = {p.primitive() for p in equations}
-    return all(p.reflect(reflection).primitive() in known for p in known)
+    return all(_reflected(p, reflection).primitive() in known for p in known)
 
 
-def representatives(
-    sets: Sequence[tuple[Polynomial, ...]], group: Sequence[Reflection]
-) -> list[tuple[int, tuple[Reflection, ...]]]:
-    """One of each orbit of zero sets, by its place, with the reflections that lead to all members.
+def permuting(sets: Sequence[tuple[Polynomial, ...]], group: Iterable[Reflection]) -> tuple[Reflection, ...]:
+    """Those that carry each of some zero sets over to one of them.
 
     >>> from singsym.polynomials import Ring
     >>> x, y = Ring(("x", "y")).gens
-    >>> representatives([(x - 1, y), (x + 1, y), (x, y)], [(), ("x",), ("y",)])
+    >>> permuting([(x - 1, y - 1), (x + 1, y - 1)], [(), ("x",), ("y",)])
+    ((), ('x',))
+    """
+    known = set(map(_zeros, sets))
+    return tuple(r for r in group if all(_zeros(image(equations, r)) in known for equations in sets))
+
+
+def _zeros(equations: Iterable[Polynomial]) -> frozenset[Polynomial]:
+    return frozenset(p.primitive() for p in equations)
+
+
+def representatives(
+    sets: Sequence[tuple[Polynomial, ...]], group: Iterable[Reflection]
+) -> list[tuple[int, tuple[Reflection, ...]]]:
+    """One of each orbit of zero sets, by its place, with the reflections that lead to all members.
+
+    group: closed under composition; those that do not permute the sets are not used.  The reflections that
+    lead to the members are closed too: a complement of those that keep the first one.
+
+    >>> from singsym.polynomials import Ring
+    >>> x, y = Ring(("x", "y")).gens
+    >>> representatives([(x - 1, y), (x + 1, y), (x, y)], [(), ("x",), ("y",), ("x", "y")])
     [(0, ((), ('x',))), (2, ((),))]
     """
-    places = {frozenset(p.primitive() for p in equations): k for k, equations in enumerate(sets)}
+    places = {_zeros(equations): k for k, equations in enumerate(sets)}
+    permutations = permuting(sets, group)
     found: list[tuple[int, tuple[Reflection, ...]]] = []
     reached: set[int] = set()
     for k, equations in enumerate(sets):
         if k in reached:
             continue
         members = {k: IDENTITY}
-        for reflection in group:
-            member = places.get(frozenset(p.primitive() for p in image(equations, reflection)))
-            if member is not None and member not in reached:
-                members.setdefault(member, reflection)
+        for reflection in permutations:
+            if places[_zeros(image(equations, reflection))] in members:
+                continue
+            cosets = [compose(reflection, r) for r in members.values()]
+            members |= {places[_zeros(image(equations, r))]: r for r in cosets}
         reached |= members.keys()
         found.append((k, tuple(members.values())))
     return found

@@ -85,6 +85,26 @@ def test_a_point_of_two_patches_is_counted_once() -> None:
     assert sum(piece.points or 0 for piece in pieces) == 1
 
 
+@pytest.mark.parametrize("symmetries", [((),), ((), ("u", "v"))])
+def test_parts_that_are_images_are_searched_once(symmetries: tuple[tuple[str, ...], ...]) -> None:
+    """The same on u = v = 1 and on u = v = -1: one point each, of two patches, and nothing else."""
+    ring = Ring(("x", "y", "u", "v"))
+    x, y, u, v = ring.gens
+    row = PolynomialMatrix.of(ring, [[x, y]])
+    parts = {name: row.select(columns=c) for name, c in (("L_I", [0]), ("L_O", [1]), ("L_p", []))}
+    space = RealSystem(ring, ())
+    equations = (u**2 - 1, v**2 - 1, u - v, x * y)
+    root = Branch(RankProblem({"L": row, **parts}, 0, 1, 1), space, equations, symmetries=symmetries)
+    assert len(explore(root).following) == 3 - len(symmetries)
+    found = [part for part in search(root, Runner()).found if part.stratum.defects.delta]
+    assert len(found) == 2 * (3 - len(symmetries))
+    tasks = [RealTask(part, space, Names()) for part in found]
+    pieces = [
+        p for task in tasks for part in alike.realise_alike(alike.AlikeTask(task)).parts for p in part.pieces
+    ]
+    assert sum(piece.points or 0 for piece in pieces) == 2
+
+
 def test_parts_without_points_are_searched_on_their_own(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of x y = 0 with 2 z^4 = 3 x - 5 and no short proof, x = 0 is empty and y = 0 is not."""
     ring = Ring(("x", "y", "z"))

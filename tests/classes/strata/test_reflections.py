@@ -9,7 +9,7 @@ import pytest
 
 from singsym.classes import classify as module
 from singsym.classes.classify import classify
-from singsym.classes.strata.reflections import IDENTITY, image, reflections
+from singsym.classes.strata.reflections import IDENTITY, compose, image, reflections, representatives
 from singsym.kinematics.sampling import sample_configurations
 from singsym.kinematics.velocity import velocity_equation
 from singsym.mechanism import load
@@ -47,6 +47,19 @@ def test_a_leg_of_the_hybrid_chain_turns_half_and_bends_the_other_way() -> None:
     assert {("c_A1", "c_A2", "c_A23", "s_A1"), ("s_A2", "s_A23", "s_B2", "s_B23", "s_C2", "s_C23")} <= set(
         found
     )
+
+
+def test_reflections_to_the_members_of_an_orbit_are_closed() -> None:
+    """Of the four corners of a square, by a group of eight of which x and (y, z) lead to all."""
+    x, y, z = Ring(("x", "y", "z")).gens
+    corners = [(x - a, y - b, z**2 - 2) for a in (1, -1) for b in (1, -1)]
+    group = [(), ("x",), ("y", "z"), ("x", "y", "z"), ("x", "z"), ("z",), ("x", "y"), ("y",)]
+    ((place, images),) = representatives(corners, group)
+    assert place == 0
+    assert len(images) == len(corners)
+    assert {compose(one, two) for one in images for two in images} == set(images)
+    # the only corner that is not there has images that are not: what leads to it is not used
+    assert [len(images) for _, images in representatives(corners[:3], group)] == [1, 1, 1]
 
 
 @pytest.mark.parametrize("name", ["five-bar-coupled", "pair-19", "parallelogram"])

@@ -10,7 +10,8 @@ from dataclasses import replace
 
 from singsym.effort.budget import Budget, Undecided, current
 from singsym.effort.verdict import Known, Premises
-from singsym.polynomials import Polynomial
+from singsym.elimination.linear_substitution import substitute_solved
+from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.decomposition import Component, decompose
 from singsym.varieties.purity import PurePiece, pure_or_whole
 from singsym.varieties.real.points.boxed_point import BoxPoint
@@ -19,6 +20,7 @@ from singsym.varieties.real.points.exact_point import RealPoint
 from singsym.varieties.real.points.intervals import at_precision, evaluate, jacobian, rank_at_least
 from singsym.varieties.real.proofs.critical_points import regular_samples
 from singsym.varieties.real.proofs.emptiness import border_polynomials, is_empty_over_reals, is_excluded
+from singsym.varieties.real.proofs.real_consequences import real_consequences
 from singsym.varieties.real.system import RealSystem
 
 _RANK_BITS = (64, 256)
@@ -96,8 +98,19 @@ def real_dimension(system: RealSystem, budget: Budget | None = None, *, seed: in
 def _real_dimension(system: RealSystem, budget: Budget, seed: int) -> Known[Dimension]:
     best: Dimension = (-1, None)
     premises = Premises()
+    rest, _ = substitute_solved(system.closed_equations, _unknowns(system.ring))
+    forced = premises.take(real_consequences(system, rest))
+    if forced is None:
+        return premises.conclude(best)
+    system = replace(system, equations=(*system.equations, *forced))
     pieces = premises.take(
-        decompose(system.closed_equations, system.nonzero, ring=system.ring, budget=budget)
+        decompose(
+            system.closed_equations,
+            system.nonzero,
+            ring=system.ring,
+            excluded=system.exclusions,
+            budget=budget,
+        )
     )
     components = premises.take(pure_or_whole(pieces, system.closed_equations, system.ring))
     for component in sorted(components, key=lambda c: -c.dimension):
@@ -106,6 +119,11 @@ def _real_dimension(system: RealSystem, budget: Budget, seed: int) -> Known[Dime
         found = premises.take(component_dimension(component, system, budget, seed=seed))
         best = max(best, found, key=lambda pair: pair[0])
     return premises.conclude(best)
+
+
+def _unknowns(ring: Ring) -> list[str]:
+    constants = {c.name for c in ring.constants}
+    return [name for name in ring.names if name not in constants]
 
 
 def component_dimension(

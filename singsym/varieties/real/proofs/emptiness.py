@@ -61,7 +61,9 @@ def _decided(system: RealSystem, budget: Budget, seed: int, tries: int) -> Verdi
     if forced is None:
         return Verdict.yes(premises.certainty, reason=CONTRADICTED)
     equations = (*equations, *forced)
-    pieces = premises.take(decompose(equations, system.nonzero, ring=system.ring, budget=budget))
+    pieces = premises.take(
+        decompose(equations, system.nonzero, ring=system.ring, excluded=system.exclusions, budget=budget)
+    )
     components = tuple(c for c in pieces if not premises.take(is_excluded(c, system)))
     if not components:
         return Verdict.yes(premises.certainty, reason="there is no complex solution")

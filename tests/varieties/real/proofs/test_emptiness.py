@@ -80,6 +80,9 @@ DIMENSIONS = {
     "nothing": (RealSystem(R, (x**2 + 1,)), -1),
     "space": (RealSystem(R, (), positive=(x,)), 3),
     "plane and line": (RealSystem(R, (x * z, y * z), exclusions=((z,),)), 1),
+    "plane and line, off a set": (RealSystem(R, (x * z, y * z), exclusions=((z, x * z),)), 1),
+    # (z + 3 y)^2 + 9 x^2 = 0 on the circle
+    "two points of a curve": (RealSystem(R, (x**2 + y**2 - 1, z**2 + 6 * y * z + 9)), 0),
 }
 
 
