@@ -93,6 +93,7 @@ SMOOTHNESS = Patience(5.0, "whether the space is smooth is undecided")
 # what holds for many configurations or dimensions together
 ARCS = Patience(120.0, "the regions of a curve are undecided")
 BORDER = Patience(20.0, "a class is not proven constant over the cells of a design")
+REAL_BORDER = Patience(8.0, "a border counts, though there may be nothing real over it")
 
 
 @contextmanager
