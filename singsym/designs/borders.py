@@ -13,7 +13,7 @@ Les connexions infinitesimales dans un espace fibre differentiable (1950); the r
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 
 from singsym.classes.strata.ranks import Stratum
@@ -21,7 +21,7 @@ from singsym.classes.taxonomy.types import SingularityType, feasible_classes
 from singsym.designs.bundles import Bundle
 from singsym.designs.families import Family
 from singsym.effort.attempts import attempt
-from singsym.effort.budget import Budget, Undecided
+from singsym.effort.budget import Undecided, current
 from singsym.effort.verdict import Certainty, Premises
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Equations, Polynomial
@@ -88,7 +88,7 @@ def borders(family: Family, seconds: float | None = 60.0) -> Borders:
     for part in known.found:
         types = part.stratum.defects.types
         try:
-            with Budget(work=seconds):
+            with current().part(seconds):
                 walls += [(types, wall) for wall in _Walls(family, premises, bounded).of(part.stratum)]
         except Undecided as reason:
             doubts[types, str(reason)] = None
@@ -174,7 +174,10 @@ class _Walls:
         if not self.bounded:
             raise Undecided("the configurations are not proven bounded by sums of squares")
         singular = "a part of it is singular for all values of the parameters"
-        walls = self._wall(bundle.folds(), TOGETHER, singular)
+        walls = list[_Wall]()
+        for fold in bundle.folds():
+            (wall,) = self._wall(fold, TOGETHER, singular)
+            walls.append(replace(wall, equations=tuple(dict.fromkeys((*bundle.equations, *fold)))))
         for face in bundle.faces(limits):
             walls += self._wall(face, LIMIT, "limits do not cut a part of it across for any values")
         for group in removed:

@@ -7,7 +7,7 @@ manifolds with corners, face by face; the rest is singsym's own.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations, islice
 
 from singsym.minors.determinant import minors
@@ -57,9 +57,32 @@ class Bundle:
         """That of its fibres, off the folds."""
         return len(self.others) - self.size
 
-    def folds(self) -> Equations:
-        """Where gradients depend on each other."""
-        return (*self.equations, *self._dependent(()))
+    def folds(self) -> Iterator[Equations]:
+        """Sets whose union is where gradients depend on each other, or a little more.
+
+        Lemma: let only some rows hold some variables.  Where their gradients by these are independent, all
+        gradients are, if those of the other rows are; so these are looked at without the former, as they are
+        where a mechanism lacks a dyad.
+        """
+        if len(self.rows) == self.size and (own := self._module()) is not None:
+            rows, names = own
+            ends = self._minors(rows, names, len(rows))
+            yield (*self.equations, *ends, *self._dependent(()))
+            left = tuple(f for f in self.rows if f not in rows)
+            rest = tuple(f for f in self.equations if f not in rows)
+            yield from replace(self, equations=rest, rows=left, size=len(left)).folds()
+        elif self.size:
+            yield (*self.equations, *self._dependent(()))
+
+    def _module(self) -> tuple[Equations, tuple[str, ...]] | None:
+        """The fewest rows that alone hold as many variables, or more, and these."""
+        holding = {x: frozenset(f for f in self.rows if f.degree(x) > 0) for x in self.others}
+        found = []
+        for rows in dict.fromkeys(filter(None, holding.values())):
+            names = tuple(x for x, own in holding.items() if own and own <= rows)
+            if len(rows) <= len(names):
+                found.append((tuple(f for f in self.rows if f in rows), names))
+        return min(found, key=lambda own: len(own[0]), default=None)
 
     def faces(self, limits: Sequence[Polynomial]) -> Iterator[Equations]:
         """Where limits that are zero together do not cut the set across.
@@ -89,10 +112,13 @@ class Bundle:
             yield (*self.touches(group), *self._dependent((form,)))
 
     def _dependent(self, more: Sequence[Polynomial]) -> Equations:
-        """Minors, none of them zero, that vanish where gradients of the rows and of more have no full rank."""
-        gradients = [[f.derivative(x) for x in self.others] for f in (*more, *self.rows)]
-        matrix = PolynomialMatrix.of(self.ring, gradients)
-        found = minors(matrix, self.size + len(more))
+        """What vanishes where gradients of the rows and of more are dependent."""
+        return self._minors((*more, *self.rows), self.others, self.size + len(more))
+
+    def _minors(self, rows: Sequence[Polynomial], names: Sequence[str], size: int) -> Equations:
+        """Minors, none of them zero, of the gradients of rows by some variables."""
+        gradients = [[f.derivative(x) for x in names] for f in rows]
+        found = minors(PolynomialMatrix.of(self.ring, gradients), size)
         return tuple(islice((minor for _, _, minor in found), _MOST_MINORS))
 
 

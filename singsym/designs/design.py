@@ -31,6 +31,9 @@ from singsym.mechanism.model import Mechanism
 from singsym.mechanism.problems import MechanismError, Problem
 from singsym.polynomials import Polynomial
 
+_SEARCH, _BORDERS = 0.3, 0.3
+"""Of the clock for the strata, and of what is left then for the borders."""
+
 
 def design(
     mechanism: Mechanism,
@@ -48,7 +51,8 @@ def design(
     parameters: names; their values are taken away, their ranges are kept, all others need a value.
     Each cell has the classification at an exact sample; `Design.is_constant` says of which classes it is
     proven to be that of the whole cell.  limits: of each classification, `seconds` also of each branch of
-    the search; workers, executor, cache, progress: as for `classify`.
+    the search; `clock` of everything, a good half of it for the samples.  workers, executor, cache, progress:
+    as for `classify`.
     Raises `MechanismError` for parameters that are not there, none or more than two, or others without a
     value, and for a mechanism that cannot be placed.
 
@@ -60,14 +64,17 @@ def design(
     limits, names = limits or Limits(), tuple(dict.fromkeys(parameters))
     symbolic = mechanism.with_parameters(**dict.fromkeys(names))
     _check(symbolic, names)
+    whole = Budget(limits.clock)
     with to(progress):
         with running(workers, executor, limits.clock, cache) as runner:
-            whole = Budget(limits.clock, work=limits.total)
-            found = family(symbolic, formulation, runner, seconds=limits.seconds, budget=whole)
-            border = real_borders(found, borders(found, limits.part(patience.BORDER.work)))
+            searched = Budget(_share(limits.clock, _SEARCH), work=limits.total)
+            found = family(symbolic, formulation, runner, seconds=limits.seconds, budget=searched)
+            with Budget(_share(whole.time_left(), _BORDERS)):
+                border = real_borders(found, borders(found, limits.part(patience.BORDER.work)))
         parts = _line(found, border) if len(names) == 1 else _plane(found, border, (names[0], names[1]))
         samples_in = [cell.sample for cell in (*parts.cells, *parts.values) if not cell.reason]
-        tables = iter(at_samples(symbolic, samples_in, formulation, limits, workers, executor, cache))
+        each = replace(limits, clock=_share(whole.time_left(), workers / max(workers, len(samples_in))))
+        tables = iter(at_samples(symbolic, samples_in, formulation, each, workers, executor, cache))
 
     def filled(cell: Cell) -> Cell:
         if cell.reason:
@@ -85,6 +92,10 @@ def design(
         tuple(map(filled, parts.values)),
         parts.plane,
     )
+
+
+def _share(clock: float | None, part: float) -> float | None:
+    return None if clock is None else clock * part
 
 
 def _check(mechanism: Mechanism, names: tuple[str, ...]) -> None:

@@ -14,6 +14,7 @@ from singsym.designs.borders import BorderPart, Borders
 from singsym.designs.families import Family
 from singsym.effort import patience
 from singsym.effort.attempts import attempt
+from singsym.effort.budget import Undecided
 from singsym.effort.verdict import Certainty, weakest
 from singsym.polynomials import Equations
 from singsym.varieties.real.proofs.emptiness import is_empty_over_reals
@@ -24,7 +25,10 @@ def real_borders(family: Family, found: Borders) -> Borders:
     """The borders without those parts over which no real configuration changes, by a proof."""
     parts, certainties = list[BorderPart](), [found.certainty]
     for part in found.parts:
-        known = _without_real_points(family, part)
+        try:
+            known = _without_real_points(family, part)
+        except Undecided:
+            known = None
         if known is None:
             parts.append(part)
         else:
