@@ -73,8 +73,8 @@ def design(
                 border = real_borders(found, borders(found, limits.part(patience.BORDER.work)))
         parts = _line(found, border) if len(names) == 1 else _plane(found, border, (names[0], names[1]))
         samples_in = [cell.sample for cell in (*parts.cells, *parts.values) if not cell.reason]
-        each = replace(limits, clock=_share(whole.time_left(), workers / max(workers, len(samples_in))))
-        tables = iter(at_samples(symbolic, samples_in, formulation, each, workers, executor, cache))
+        rest = replace(limits, clock=whole.time_left())
+        tables = iter(at_samples(symbolic, samples_in, formulation, rest, workers, executor, cache))
 
     def filled(cell: Cell) -> Cell:
         if cell.reason:
