@@ -4,7 +4,8 @@ A stratum of the family is a set over the space of parameters.  Where its fibres
 dimension, and move smoothly, it is a locally trivial bundle (Ehresmann's lemma; for points a covering), so
 that over a connected cell all fibres look alike.  What is projected into the space of parameters, by
 elimination: where gradients by the configuration variables depend on each other, where it meets what is
-taken out of it or the border of a limit, and a stratum that is there for special values only.
+taken out of it or the border of a limit, and a stratum that is there for special values only.  A stratum is
+taken as it is where its equations are independent off such a border; else its components are taken.
 Source: D. Lazard, F. Rouillier, J. Symb. Comput. 42 (2007) 636-667 (discriminant varieties); C. Ehresmann,
 Les connexions infinitesimales dans un espace fibre differentiable (1950); the rest is singsym's own.
 """
@@ -12,23 +13,20 @@ Les connexions infinitesimales dans un espace fibre differentiable (1950); the r
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
-from itertools import combinations, islice
+from dataclasses import dataclass, field, replace
+from itertools import combinations
 
 from singsym.classes.strata.ranks import Stratum
 from singsym.classes.taxonomy.types import SingularityType, feasible_classes
+from singsym.designs.bundles import Bundle
 from singsym.designs.families import Family
-from singsym.effort.budget import Budget, Undecided
+from singsym.effort.attempts import attempt
+from singsym.effort.budget import Undecided, current
 from singsym.effort.verdict import Certainty, Premises
 from singsym.elimination.ideal import Ideal
-from singsym.minors.determinant import minors
-from singsym.polynomials import Equations, Polynomial, PolynomialMatrix, Ring
+from singsym.polynomials import Equations, Polynomial
 from singsym.varieties.decomposition import Component, decompose
-from singsym.varieties.purity import PurePiece
 from singsym.varieties.real.curves.critical_points import is_bounded
-
-_MOST_MINORS = 40
-"""So many minors are taken; fewer may only make the border larger."""
 
 _ALL = 3
 """A mobility that allows all classes."""
@@ -41,10 +39,14 @@ LIMIT = "at a limit"
 
 @dataclass(frozen=True)
 class BorderPart:
-    """One irreducible factor of the border, with the types of the strata that it comes from, and why."""
+    """One irreducible factor of the border, with the types of the strata that it comes from, and why.
+
+    sets: of configurations and parameters, whose projections it is in.
+    """
 
     polynomial: Polynomial
     reasons: tuple[tuple[SingularityType, str], ...]
+    sets: tuple[Equations, ...] = field(default=(), repr=False, compare=False)
 
 
 @dataclass(frozen=True)
@@ -61,32 +63,13 @@ class Borders:
     certainty: Certainty
 
 
-class _Collected:
-    """Factors and doubts on the way, each with the strata that they come from."""
+@dataclass(frozen=True)
+class _Wall:
+    """A set that does not lie over all of the space of parameters, and why fibres change there."""
 
-    def __init__(self, family: Family) -> None:
-        self.family = family
-        known = family.exploration
-        self.premises = Premises(known.certainty, "modular" if known.modular else "proven")
-        self.reasons: dict[Polynomial, dict[tuple[SingularityType, str], None]] = {}
-        self.open: dict[tuple[SingularityType, str], None] = {}
-
-    def project(self, equations: Iterable[Polynomial], types: SingularityType, reason: str) -> bool:
-        """Add the projection of a set to the borders; whether it is a border, not all of the space."""
-        found = self.projection(equations)
-        if found is None:
-            return False
-        for factor, _ in found.factors():
-            self.reasons.setdefault(factor, {})[types, reason] = None
-        return True
-
-    def projection(self, equations: Iterable[Polynomial]) -> Polynomial | None:
-        """A polynomial in the parameters that vanishes on the set, one if it is empty; None for zero."""
-        ring, family = self.family.space.ring, self.family
-        whole = Ideal(ring, equations).eliminate(family.others)
-        known = self.premises.take(whole).generators
-        found = [family.base.convert(p) for p in known if p]
-        return min(found, key=lambda p: (p.total_degree, len(p)), default=None)
+    equations: Equations
+    projection: Polynomial
+    reason: str
 
 
 def borders(family: Family, seconds: float | None = 60.0) -> Borders:
@@ -95,22 +78,31 @@ def borders(family: Family, seconds: float | None = 60.0) -> Borders:
     Of the regular configurations only whether there are any, as of all configurations together.
     What comes to no end is open for the types of its stratum.
     """
-    found = _Collected(family)
+    known = family.exploration
+    premises = Premises(known.certainty, "modular" if known.modular else "proven")
+    doubts: dict[tuple[SingularityType, str], None] = {}
     for kind in feasible_classes(_ALL):
-        found.open |= {(kind.types, reason): None for reason in family.exploration.doubts(kind.types)}
+        doubts |= {(kind.types, reason): None for reason in known.doubts(kind.types)}
     bounded = _is_bounded(family)
-    for part in family.exploration.found:
+    walls: list[tuple[SingularityType, _Wall]] = []
+    for part in known.found:
         types = part.stratum.defects.types
         try:
-            with Budget(work=seconds):
-                _add(found, part.stratum, types, bounded)
+            with current().part(seconds):
+                walls += [(types, wall) for wall in _Walls(family, premises, bounded).of(part.stratum)]
         except Undecided as reason:
-            found.open[types, str(reason)] = None
-    return Borders(
-        tuple(BorderPart(p, tuple(why)) for p, why in found.reasons.items()),
-        tuple(found.open),
-        found.premises.certainty,
-    )
+            doubts[types, str(reason)] = None
+    return Borders(_parts(walls), tuple(doubts), premises.certainty)
+
+
+def _parts(walls: Iterable[tuple[SingularityType, _Wall]]) -> tuple[BorderPart, ...]:
+    reasons: dict[Polynomial, dict[tuple[SingularityType, str], None]] = {}
+    sets: dict[Polynomial, dict[Equations, None]] = {}
+    for types, wall in walls:
+        for factor, _ in wall.projection.factors():
+            reasons.setdefault(factor, {})[types, wall.reason] = None
+            sets.setdefault(factor, {})[wall.equations] = None
+    return tuple(BorderPart(p, tuple(why), tuple(sets[p])) for p, why in reasons.items())
 
 
 def _is_bounded(family: Family) -> bool:
@@ -130,106 +122,98 @@ def _is_bounded(family: Family) -> bool:
     return bool(quadrics) and is_bounded(quadrics)
 
 
-def _add(found: _Collected, stratum: Stratum, types: SingularityType, bounded: bool) -> None:
-    """The borders of one stratum; raises `Undecided`."""
-    family = found.family
-    ring, space = family.space.ring, family.space
-    removed = (*stratum.loci, *stratum.elsewhere, *space.exclusions) if types else ()
-    single = [group[0] for group in removed if len(group) == 1]
-    pieces = found.premises.take(decompose(stratum.equations, single, ring=ring))
-    there: list[Component] = []
-    for component in pieces:
-        left = [_not_zero(found, component, group) for group in removed]
-        if not all(left):
-            continue
-        if found.project(component.generators, types, SPECIAL):
-            continue
-        _add_piece(found, component, stratum.equations, types, [g for g in left if g], bounded)
-        there.append(component)
-    for one, two in combinations(there, 2):
-        if not found.project((*one.generators, *two.generators), types, TOGETHER):
-            raise Undecided("two parts of it meet for all values of the parameters")
+@dataclass(frozen=True)
+class _Walls:
+    """What is projected of a stratum; every method raises `Undecided`."""
 
+    family: Family
+    premises: Premises
+    bounded: bool
 
-def _not_zero(found: _Collected, component: Component, group: Equations) -> Equations:
-    """Those of some polynomials that do not vanish on all of a component."""
-    return tuple(p for p in group if not found.premises.take(component.vanishes(p)))
+    def of(self, stratum: Stratum) -> list[_Wall]:
+        """The walls of a stratum: as one set, or else of its components."""
+        family = self.family
+        removed = (*stratum.loci, *stratum.elsewhere, *family.space.exclusions)
+        removed = removed if stratum.defects.types else ()
+        with attempt("a stratum as one set", share=0.5):
+            return self._as_one(stratum, removed)
+        return self._by_components(stratum, removed)
 
+    def _as_one(self, stratum: Stratum, removed: Sequence[Equations]) -> list[_Wall]:
+        family = self.family
+        whole = Bundle.of_equations(family.space.ring, family.others, stratum.equations)
+        if whole.dimension < 0:
+            return self._wall(whole.equations, SPECIAL, "a part of it has more equations than variables")
+        return self._of_bundle(whole, removed, tuple(self._limits()))
 
-def _add_piece(
-    found: _Collected,
-    component: Component,
-    equations: Equations,
-    types: SingularityType,
-    removed: Sequence[Equations],
-    bounded: bool,
-) -> None:
-    """The borders of a component that is there for almost all values; raises `Undecided`.
+    def _by_components(self, stratum: Stratum, removed: Sequence[Equations]) -> list[_Wall]:
+        family, ring = self.family, self.family.space.ring
+        single = [group[0] for group in removed if len(group) == 1]
+        pieces = self.premises.take(decompose(stratum.equations, single, ring=ring))
+        there, walls = list[Component](), list[_Wall]()
+        for component in pieces:
+            left = [self._not_zero(component, group) for group in removed]
+            if not all(left):
+                continue
+            if special := self._projected(component.generators, SPECIAL):
+                walls.append(special)
+                continue
+            limits = tuple(g for g in self._limits() if self._not_zero(component, (g,)))
+            own = Bundle.of_component(component, family.others, stratum.equations)
+            walls += self._of_bundle(own, left, limits)
+            there.append(component)
+        for one, two in combinations(there, 2):
+            both = (*one.generators, *two.generators)
+            walls += self._wall(both, TOGETHER, "two parts of it meet for all values of the parameters")
+        return walls
 
-    Lemma: let c be the codimension.  Where c polynomials that vanish on a pure piece have independent
-    gradients by the configuration variables, their zeros are a manifold on which the parameters are
-    independent, of the dimension of the piece, which holds the piece and so is the piece.
-    """
-    family = found.family
-    ring = family.space.ring
-    piece = PurePiece.of(component)
-    if not bounded:
-        raise Undecided("the configurations are not proven bounded by sums of squares")
-    size = piece.codimension
-    dimension = len(family.others) - size
-    rows = _rows(component, (*ring.relations, *equations), size)
-    gradients = PolynomialMatrix.of(ring, [[f.derivative(x) for x in family.others] for f in rows])
-    dependent = _some_minors(gradients, size)
-    if not found.project((*component.generators, *dependent), types, TOGETHER):
-        raise Undecided("a part of it is singular for all values of the parameters")
-    for g in (*family.space.positive, *family.space.nonnegative):
-        if not family.moves(g) or not _not_zero(found, component, (g,)):
-            continue
-        if dimension or not found.project((*component.generators, g), types, LIMIT):
-            raise Undecided("where limits cut it is not told for a part that is no set of points")
-    for group in removed:
-        if dimension:
-            _off_curves(found, component, gradients, size, group, types)
-        elif not found.project((*component.generators, *group), types, MEETS):
-            raise Undecided("a part of it is in another class for all values of the parameters")
+    def _of_bundle(
+        self, bundle: Bundle, removed: Sequence[Equations], limits: Sequence[Polynomial]
+    ) -> list[_Wall]:
+        """The walls of a set that is there for almost all values of the parameters."""
+        if not self.bounded:
+            raise Undecided("the configurations are not proven bounded by sums of squares")
+        singular = "a part of it is singular for all values of the parameters"
+        walls = list[_Wall]()
+        for fold in bundle.folds():
+            (wall,) = self._wall(fold, TOGETHER, singular)
+            walls.append(replace(wall, equations=tuple(dict.fromkeys((*bundle.equations, *fold)))))
+        for face in bundle.faces(limits):
+            walls += self._wall(face, LIMIT, "limits do not cut a part of it across for any values")
+        for group in removed:
+            walls += self._off(bundle, group, limits)
+        return walls
 
+    def _off(self, bundle: Bundle, group: Equations, limits: Sequence[Polynomial]) -> list[_Wall]:
+        """Where what is taken out of a set may have an open part of a fibre in it."""
+        sets = [bundle.touches(group)]
+        if bundle.dimension and not limits:
+            sets += bundle.summits(group, self.family.space.variables)
+        found = next(filter(None, (self._projected(own, MEETS) for own in sets)), None)
+        if found is None:
+            raise Undecided("a part of it was not seen to lie outside another class")
+        return [found]
 
-def _rows(component: Component, equations: Equations, size: int) -> Equations:
-    """Polynomials that vanish on a component: the equations where they are as many as its codimension."""
-    given = tuple(dict.fromkeys(f for f in equations if f))
-    return given if len(given) == size else component.generators
+    def _limits(self) -> Iterator[Polynomial]:
+        """Limits of configurations, not those of parameters."""
+        space = self.family.space
+        return filter(self.family.moves, (*space.positive, *space.nonnegative))
 
+    def _not_zero(self, component: Component, group: Equations) -> Equations:
+        """Those of some polynomials that do not vanish on all of a component."""
+        return tuple(p for p in group if not self.premises.take(component.vanishes(p)))
 
-def _some_minors(matrix: PolynomialMatrix, size: int) -> tuple[Polynomial, ...]:
-    """Minors of this size that are not zero; none is like one that is zero."""
-    return tuple(islice((minor for _, _, minor in minors(matrix, size)), _MOST_MINORS))
+    def _wall(self, equations: Equations, reason: str, otherwise: str) -> list[_Wall]:
+        found = self._projected(equations, reason)
+        if found is None:
+            raise Undecided(otherwise)
+        return [found]
 
-
-def _off_curves(
-    found: _Collected,
-    component: Component,
-    gradients: PolynomialMatrix,
-    size: int,
-    group: Equations,
-    types: SingularityType,
-) -> None:
-    """No connected component of a fibre lies in what is taken out of it; raises `Undecided`.
-
-    Lemma: on a bounded manifold a coordinate has a largest value on each connected component, where its
-    gradient depends on those of the equations.  A connected component on which a polynomial vanishes
-    throughout has such a point among its zeros; on others the zeros have an empty interior.
-    """
-    ring, others = found.family.space.ring, found.family.others
-    for form in _forms(ring, found.family.space.variables):
-        row = [form.derivative(x) for x in others]
-        wider = PolynomialMatrix.of(ring, [*gradients.rows, row])
-        critical = _some_minors(wider, size + 1)
-        if found.project((*component.generators, *critical, *group), types, MEETS):
-            return
-    raise Undecided("that it does not lie in another class was not seen")
-
-
-def _forms(ring: Ring, names: Sequence[str]) -> Iterator[Polynomial]:
-    """Linear forms to look for critical points of: coordinates, then a sum of multiples of all."""
-    yield from islice(map(ring.gen, names), 4)
-    yield sum((ring.gen(name) * (2 * k + 3) for k, name in enumerate(names)), ring.zero)
+    def _projected(self, equations: Equations, reason: str) -> _Wall | None:
+        """A set with a polynomial in the parameters that vanishes on it; None where only zero does."""
+        family = self.family
+        whole = Ideal(family.space.ring, equations).eliminate(family.others)
+        known = self.premises.take(whole).generators
+        found = [family.base.convert(p) for p in known if p]
+        smallest = min(found, key=lambda p: (p.total_degree, len(p)), default=None)
+        return None if smallest is None else _Wall(equations, smallest, reason)

@@ -20,6 +20,7 @@ from singsym.designs.borders import Borders, borders
 from singsym.designs.families import Family, family
 from singsym.designs.line import Root, roots, samples
 from singsym.designs.plane import Plane, signs
+from singsym.designs.real_borders import real_borders
 from singsym.designs.result import Cell, Design
 from singsym.designs.sampling import at_samples
 from singsym.effort import patience
@@ -29,6 +30,9 @@ from singsym.elimination.ideal import Ideal
 from singsym.mechanism.model import Mechanism
 from singsym.mechanism.problems import MechanismError, Problem
 from singsym.polynomials import Polynomial
+
+_SEARCH, _BORDERS = 0.3, 0.3
+"""Of the clock for the strata, and of what is left then for the borders."""
 
 
 def design(
@@ -47,7 +51,8 @@ def design(
     parameters: names; their values are taken away, their ranges are kept, all others need a value.
     Each cell has the classification at an exact sample; `Design.is_constant` says of which classes it is
     proven to be that of the whole cell.  limits: of each classification, `seconds` also of each branch of
-    the search; workers, executor, cache, progress: as for `classify`.
+    the search; `clock` of everything, a good half of it for the samples.  workers, executor, cache, progress:
+    as for `classify`.
     Raises `MechanismError` for parameters that are not there, none or more than two, or others without a
     value, and for a mechanism that cannot be placed.
 
@@ -59,14 +64,17 @@ def design(
     limits, names = limits or Limits(), tuple(dict.fromkeys(parameters))
     symbolic = mechanism.with_parameters(**dict.fromkeys(names))
     _check(symbolic, names)
+    whole = Budget(limits.clock)
     with to(progress):
         with running(workers, executor, limits.clock, cache) as runner:
-            whole = Budget(limits.clock, work=limits.total)
-            found = family(symbolic, formulation, runner, seconds=limits.seconds, budget=whole)
-            border = borders(found, limits.part(patience.BORDER.work))
+            searched = Budget(_share(limits.clock, _SEARCH), work=limits.total)
+            found = family(symbolic, formulation, runner, seconds=limits.seconds, budget=searched)
+            with Budget(_share(whole.time_left(), _BORDERS)):
+                border = real_borders(found, borders(found, limits.part(patience.BORDER.work)))
         parts = _line(found, border) if len(names) == 1 else _plane(found, border, (names[0], names[1]))
         samples_in = [cell.sample for cell in (*parts.cells, *parts.values) if not cell.reason]
-        tables = iter(at_samples(symbolic, samples_in, formulation, limits, workers, executor, cache))
+        rest = replace(limits, clock=whole.time_left())
+        tables = iter(at_samples(symbolic, samples_in, formulation, rest, workers, executor, cache))
 
     def filled(cell: Cell) -> Cell:
         if cell.reason:
@@ -84,6 +92,10 @@ def design(
         tuple(map(filled, parts.values)),
         parts.plane,
     )
+
+
+def _share(clock: float | None, part: float) -> float | None:
+    return None if clock is None else clock * part
 
 
 def _check(mechanism: Mechanism, names: tuple[str, ...]) -> None:
@@ -137,7 +149,8 @@ def _line(found: Family, border: Borders) -> _Parts:
             high = ends[k] if k < len(ends) else None
             cells.append(Cell({name: sympy.Rational(x)}, _interval(name, low, high), None))
     borders_inside = [ends[k] for k, (a, b) in enumerate(pairwise(within)) if a and b]
-    values = tuple(_value(name, root) for root in borders_inside)
+    constants = bool(found.space.ring.constants)
+    values = tuple(_value(name, root, constants) for root in borders_inside)
     return _Parts(tuple(cells), values, frozenset(root.polynomial for root in borders_inside))
 
 
@@ -148,14 +161,18 @@ def _interval(name: str, low: Root | None, high: Root | None) -> str:
 
 
 def _shown(root: Root) -> str:
-    return f"{float(root):.6g}" if root.value is None else str(root.value)
+    return str(root.value) if root.degree <= 2 else f"{float(root):.6g}"
 
 
-def _value(name: str, root: Root) -> Cell:
-    if root.value is None:
-        reason = f"it is a root of degree {root.polynomial.total_degree}, which is not put in"
-        return Cell({}, f"{name} = {float(root):.6g}...", None, reason, about=float(root))
-    return Cell({name: root.value}, f"{name} = {root.value}", None, about=float(root))
+def _value(name: str, root: Root, constants: bool) -> Cell:
+    """A value of the border; constants: whether other dimensions are irrational."""
+    shown = f"{name} = {_shown(root)}"
+    where, about = shown if root.degree <= 2 else f"{shown}...", float(root)
+    value = root.value
+    if value is None or (constants and root.degree > 2):
+        reason = f"it is a root of degree {root.degree}, which is not put in"
+        return Cell({}, where, None, reason, about=about)
+    return Cell({name: value}, where, None, about=about)
 
 
 def _plane(found: Family, border: Borders, names: tuple[str, str]) -> _Parts:

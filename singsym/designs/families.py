@@ -10,6 +10,7 @@ from functools import cached_property
 
 from singsym.classes.running.runner import Runner
 from singsym.classes.strata.branches import Branch
+from singsym.classes.strata.reflections import reflections
 from singsym.classes.strata.search import Exploration, search
 from singsym.classes.strata.start import feasible_set, rank_problem, singular_loci
 from singsym.effort.budget import Budget
@@ -23,7 +24,8 @@ from singsym.polynomials import Polynomial, Ring
 class Family:
     """The configurations of a mechanism for all values of its symbolic parameters, and their strata.
 
-    exploration: strata on which the four ranks are constant, each a set over the space of parameters.
+    exploration: strata on which the four ranks are constant, each a set over the space of parameters; of
+        those that are images of each other under reflections that keep the parameters, one.
     """
 
     space: ConfigurationSpace
@@ -75,5 +77,9 @@ def family(
     """
     equation = velocity_equation(mechanism, formulation)
     found, space = equation.conditions, equation.space
-    root = Branch(rank_problem(found), feasible_set(space), space.equations, seconds=seconds)
+    problem, feasible = rank_problem(found), feasible_set(space)
+    # an image under a reflection that keeps the parameters has the same borders
+    kept = reflections(feasible, space.equations, problem.matrices.values())
+    symmetries = tuple(r for r in kept if not set(r) & set(space.parameters))
+    root = Branch(problem, feasible, space.equations, symmetries=symmetries, seconds=seconds)
     return Family(space, search(root, runner, singular_loci(found), budget))

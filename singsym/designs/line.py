@@ -16,6 +16,9 @@ from flint import fmpz, fmpz_poly
 from singsym.polynomials import Polynomial
 from singsym.varieties.real.points.roots import halved, real_roots
 
+_HIGHEST = 8
+"""A root of a higher degree is not calculated with."""
+
 
 @dataclass(frozen=True)
 class Root:
@@ -27,18 +30,27 @@ class Root:
 
     @property
     def value(self) -> sympy.Expr | None:
-        """The root by rationals and square roots; None where the polynomial's degree is above 2.
+        """The root by rationals and square roots, or as a root of its polynomial; None for a high degree.
 
         >>> from singsym.polynomials import Ring
         >>> a = Ring(("a",)).gens[0]
         >>> Root(a**2 - 2, Fraction(1), Fraction(2)).value
         sqrt(2)
+        >>> Root(a**3 - 2, Fraction(1), Fraction(2)).value
+        CRootOf(x**3 - 2, 0)
         """
-        if self.polynomial.total_degree > 2:
+        if self.degree > _HIGHEST:
             return None
         low, high = map(sympy.Rational, (self.low, self.high))
-        roots = sympy.roots(self.polynomial.to_sympy(), filter="R")
-        return next(root for root in roots if low <= root <= high)
+        own = sympy.Poly(self.polynomial.to_sympy()).replace(sympy.Symbol("x"))
+        if self.degree > 2:
+            return next(root for root in own.real_roots() if low <= root <= high)
+        return next(root for root in sympy.roots(own, filter="R") if low <= root <= high)
+
+    @property
+    def degree(self) -> int:
+        """That of the polynomial, which is irreducible."""
+        return self.polynomial.total_degree
 
     def __float__(self) -> float:
         low, high = self.narrow(40)

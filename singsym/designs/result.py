@@ -63,7 +63,7 @@ class Design:
     """How the table of classes depends on one or two parameters.
 
     dividing: the factors of the border that divide the ranges; cells: open, all of the ranges but the border;
-    values: of one parameter, the border's roots, each with a table where it is rational or a square root;
+    values: of one parameter, the border's roots, each with a table where its degree is not too high;
     plane: of two parameters, the stacks of cells; open: what is not decided, with reasons.
     """
 

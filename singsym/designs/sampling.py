@@ -7,13 +7,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any
 
-from singsym.classes.classify import Limits, classify
+from singsym.classes.classify import Limits, classify_inside
 from singsym.classes.result import Classification
-from singsym.classes.running.runner import running
+from singsym.classes.running.disk_cache import user_cache
+from singsym.classes.running.runner import Runner, running
+from singsym.classes.unit_border import Border
+from singsym.effort.budget import Budget
 from singsym.effort.progress import Sink, to
 from singsym.mechanism.model import Mechanism
 
@@ -46,10 +49,10 @@ class Sample:
 
 
 def sampled(sample: Sample) -> Sampled:
-    """The task that workers run."""
-    found = classify(
-        sample.mechanism, formulation=sample.formulation, limits=sample.limits, cache=sample.cache
-    )
+    """The task that workers run, which start no processes of their own."""
+    border = Border.of(sample.mechanism, sample.formulation)
+    runner = Runner(cache=user_cache() if sample.cache else None)
+    found = border.classification(classify_inside(sample.mechanism, border, runner, sample.limits))
     return Sampled(found)
 
 
@@ -62,10 +65,12 @@ def at_samples(
     executor: Executor | None,
     cache: bool,
 ) -> list[Sampled]:
-    """The classifications at values of the parameters, in their order."""
-    tasks = [Sample(mechanism.with_parameters(**own), formulation, limits, cache) for own in values]
+    """The classifications at values of the parameters, in their order; they share the limits' clock."""
+    clock = None if limits.clock is None else limits.clock * workers / max(workers, len(values))
+    each = replace(limits, clock=clock)
+    tasks = [Sample(mechanism.with_parameters(**own), formulation, each, cache) for own in values]
     with running(workers, executor, limits.clock, False) as runner:
-        return runner.map(sampled, tasks, "samples")
+        return runner.map(sampled, tasks, "samples", Budget(limits.clock))
 
 
 def sweep(

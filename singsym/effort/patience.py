@@ -94,6 +94,7 @@ SMOOTHNESS = Patience(5.0, "whether the space is smooth is undecided")
 ARCS = Patience(120.0, "the regions of a curve are undecided")
 WALLS = Patience(20.0, "two regions with the same signs are not proven to be apart")
 BORDER = Patience(20.0, "a class is not proven constant over the cells of a design")
+REAL_BORDER = Patience(8.0, "a border counts, though there may be nothing real over it")
 
 
 @contextmanager

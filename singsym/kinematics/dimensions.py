@@ -319,6 +319,9 @@ def _collect(e: Any, atoms: Atoms, roots: dict[tuple[sympy.Expr, int], None]) ->
     if e.is_number and isinstance(e, (sympy.cos, sympy.sin, sympy.tan)):
         atoms.angle(e)
         return
+    if isinstance(e, sympy.CRootOf) and e.is_real:
+        atoms.others[e] = None
+        return
     raise ValueError(
         f"{e} is not built from rational numbers, parameters, roots, and sin, cos of rational angles"
     )

@@ -12,8 +12,10 @@ import pytest
 import singsym
 from singsym.classes.running.runner import Runner
 from singsym.designs.borders import borders
-from singsym.designs.families import family
+from singsym.designs.families import Family, family
 from singsym.designs.plane import Plane
+from singsym.designs.real_borders import real_borders
+from singsym.output.design.page import sample_text
 from singsym.polynomials import Ring
 
 OFFSET = """
@@ -120,6 +122,81 @@ def test_what_limits_cut_is_a_border():
     # the slide's length is positive: of the two dead centres of r > l one is on the other side
     found = singsym.design(singsym.load("slider-crank"), ["r"], cache=False)
     assert [(cell.where, cell.entries[0][3]) for cell in found.cells] == [("0 < r < 3", 2), ("3 < r", 2)]
+
+
+TWO_DOF = """
+name = "two-dof"
+inputs = ["A", "E"]
+output = { velocity = "G" }
+[parameters]
+r = { value = 2, above = 0 }
+[links]
+ground = { points = { A = [0, 0], D = [1, 0], E = [2, 0] } }
+AB = 1
+BC = 1
+CD = 2
+CG = "3/2"
+FG = "r"
+EF = 3
+[joints]
+A = "R"
+B = "R"
+C = "R"
+D = "R"
+E = "R"
+F = "R"
+G = "R"
+"""
+
+
+@pytest.mark.engines
+def test_the_borders_of_a_five_bar_are_circles_that_touch():
+    # C is l2 - l1 to l2 + l1 from A, and 1 to 5 from E, which is 1 from A: the circles about A and E touch
+    # where a radius of the former is 1 +- 1 or 5 +- 1; borders of no length have nothing real in the ranges
+    found = real_family("five-bar", "l1", "l2")
+    R = Ring(("l1", "l2"))
+    one, two = R.gens
+    differences = {str((one - two + k).primitive()) for k in (0, 2, -2, 4, -4, 6, -6)}
+    assert found == differences | {str(one + two - k) for k in (2, 4, 6)}
+
+
+@pytest.mark.engines
+def test_the_borders_of_the_papers_linkage_over_one_length():
+    # C is 2 from D, and at most 2 from A; so where the four-bar linkage is flat C = (-1, 0), or A, B, C are
+    # in line and C = (1/2, +-sqrt(15)/2), which are 3 and sqrt(6) from E.  The chain C, G, F, E is flat
+    # where that is a sum or a difference of 3/2, r and 3.
+    found = borders(two_dof())
+    assert not found.open
+    assert found.certainty == "proven"
+    mobile = singsym.SingularityType.named("RI, RO, IO, IIM")
+    r = Ring(("r",)).gens[0]
+    flat = {r - Fraction(3, 2), r - Fraction(9, 2), r - Fraction(15, 2)}
+    in_line = {(r + s * (3 + t * Fraction(3, 2))) ** 2 - 6 for s, t in product((1, -1), repeat=2)}
+    special = {p.polynomial for p in found.parts if (mobile, "only there") in p.reasons}
+    assert special == {p.primitive() for p in flat | in_line}
+
+
+def two_dof() -> Family:
+    return family(singsym.loads(TWO_DOF).with_parameters(r=None), "auto", Runner())
+
+
+def real_family(name: str, *parameters: str) -> set[str]:
+    """The borders with real configurations over them."""
+    own = family(singsym.load(name).with_parameters(**dict.fromkeys(parameters)), "auto", Runner())
+    found = real_borders(own, borders(own))
+    assert not found.open
+    assert found.certainty == "proven"
+    return {str(part.polynomial) for part in found.parts}
+
+
+def test_a_root_of_a_quartic_is_put_in():
+    # det = d4 (d3 + d4 c3)(...): the first factor's zeros fall together at d3 = d4 = 3/2
+    found = singsym.design(singsym.load("orthogonal-3r"), ["d3"], cache=False)
+    assert not found.undecided
+    assert "d3 = 3/2" in {cell.where for cell in found.values}
+    quartic = next(cell for cell in found.values if cell.where == "d3 = 0.58039...")
+    assert quartic.entries == found.cells[0].entries
+    assert "a root of 4*d3^4" in sample_text(quartic)
 
 
 def test_a_hyperbola_leaves_three_cells():

@@ -113,7 +113,7 @@ def _draw_plane(axes: Any, found: Design, plane: Plane, colours: dict[Any, str])
                 under = heights[:, j - 1] if j else np.full(len(x), low)
                 over = heights[:, j] if j < count else np.full(len(x), high)
                 colour = colours[cell.entries]
-                axes.fill_between(x, under, over, facecolor=colour, alpha=0.45, lw=0)
+                axes.fill_between(x, under, over, facecolor=colour, alpha=0.45, lw=0, antialiased=False)
     _draw_borders(axes, found, (left, right), (low, high))
     for cell in found.cells:
         x0, y0 = (float(cell.sample[name]) for name in plane.names)

@@ -9,6 +9,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from typing import Any
 
+import sympy
+
 from singsym.classes.result import gathered
 from singsym.classes.taxonomy.types import SingularityType, feasible_classes
 from singsym.designs.borders import BorderPart
@@ -68,7 +70,15 @@ def _signs(found: Design) -> Grid:
 
 def sample_text(cell: Cell) -> str:
     """The values of the parameters."""
-    return ", ".join(f"{name} = {value}" for name, value in cell.sample.items())
+    return ", ".join(f"{name} = {_number(name, value)}" for name, value in cell.sample.items())
+
+
+def _number(name: str, value: sympy.Expr) -> str:
+    """A number; of one that is given by a polynomial that too."""
+    if not isinstance(value, sympy.CRootOf):
+        return str(value)
+    polynomial = value.poly.as_expr(sympy.Symbol(name))
+    return f"{float(value):.6g}..., a root of {str(polynomial).replace('**', '^')}"
 
 
 def table_text(entries: Sequence[Entry]) -> str:
