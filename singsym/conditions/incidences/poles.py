@@ -60,13 +60,13 @@ def _are_apart(forces: tuple[_Force, ...]) -> bool:
 def _forces(equation: VelocityEquation) -> list[_Force]:
     """The lines of all links with two joints, of which one turns or both do."""
     places = {name: tuple(place) for name, place in equation.space.points.items()}
-    if equation.architecture is None or any(len(place) != 2 for place in places.values()):
+    if equation.architecture is None or not places or any(len(place) != 2 for place in places.values()):
         return []
     joined = defaultdict[str, list[PlacedJoint]](list)
     for joint in equation.architecture.joints:
         for link in (joint.first, joint.second):
             joined[link].append(joint)
-    del joined[equation.architecture.ground]
+    joined.pop(equation.architecture.ground, None)
     found = (_force(own[0], own[1], places) for own in joined.values() if len(own) == 2)
     return [f for f in found if f is not None and sum(map(len, f.line)) <= MOST_TERMS]
 
@@ -75,6 +75,8 @@ def _force(one: PlacedJoint, two: PlacedJoint, places: dict[str, Vector]) -> _Fo
     if any(len(joint.screws) != 1 for joint in (one, two)):
         return None
     turning = [joint for joint in (one, two) if joint.screws[0][0]]
+    if not all(joint.points for joint in turning):
+        return None
     if len(turning) == 2:
         p, q = (joint.points[0] for joint in turning)
         name = p + q
