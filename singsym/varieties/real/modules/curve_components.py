@@ -24,7 +24,7 @@ from singsym.varieties.real.modules.assemblies import is_round
 from singsym.varieties.real.modules.coverings import Covering, coverings
 from singsym.varieties.real.modules.curve_point import CurvePoint
 from singsym.varieties.real.modules.lifted_curve import LiftedCurve
-from singsym.varieties.real.modules.module_points import points_of, without_given
+from singsym.varieties.real.modules.module_points import has_no_assembly, points_of, without_given
 from singsym.varieties.real.modules.towers import Tower, towers
 from singsym.varieties.real.points.boxed_point import BoxPoint
 from singsym.varieties.splitting import used_ring
@@ -44,7 +44,8 @@ def components_off(equations: Equations, exclusions: Sequence[Equations], budget
     """
     parts = disjoint_parts(equations)
     if len(parts) > 1:
-        return sum(components_off(part, exclusions, budget) for part in parts)
+        there = [part for part in parts if not _is_no_curve(part)]
+        return sum(components_off(part, exclusions, budget) for part in there)
     left, given = without_given(equations)
     if left and (over := next(towers(left), None)) is not None:
         with attempt("the components of a curve of dyads over circles", share=1 / 2):
@@ -53,6 +54,12 @@ def components_off(equations: Equations, exclusions: Sequence[Equations], budget
     key = (equations[0].ring, frozenset(p.primitive() for p in equations))
     points = remember("components by modules", key, lambda: _points(equations, budget), budget)
     return sum(not any(_lies_in(p, group, equations) for group in exclusions) for p in points)
+
+
+def _is_no_curve(part: Equations) -> bool:
+    """Whether as many equations as unknowns are seen to have no real solution."""
+    unknowns = {name for p in part for name in p.variables}
+    return len(part) >= len(unknowns) and has_no_assembly(part).is_yes
 
 
 def _with_given(group: Equations, given: Sequence[Substitution], left: Equations) -> Equations:

@@ -44,3 +44,16 @@ def test_circles_over_two_points_and_what_follows_from_equations() -> None:
     assert components_off(curve, (), Budget()) == 2
     assert components_off(curve, (((x + 5) * (x**2 - 2),),), Budget()) == 0
     assert components_off(curve, ((w - u - x - v,),), Budget()) == 2
+
+
+def test_a_part_that_is_no_curve_and_has_no_real_point_counts_for_nothing() -> None:
+    """A kite: (u, v) at 2 from (1, 0) and at 7 from (x, y), which is at 7 from (3, 0), all in line with this.
+
+    Folded (u, v) is at (3, 0), and (x, y) turns on its circle; stretched it would be at 14 from there, not 4.
+    A dyad of 8 and 3 on (x, y) and (3, 0) makes triangles with the 7 between them, on either side.
+    """
+    x, y, u, v, p, q = Ring(("x", "y", "u", "v", "p", "q")).gens
+    kite = ((x - 3) ** 2 + y**2 - 49, (u - x) ** 2 + (v - y) ** 2 - 49, (u - 1) ** 2 + v**2 - 4)
+    dyad = ((p - x) ** 2 + (q - y) ** 2 - 64, (p - 3) ** 2 + q**2 - 9)
+    in_line = (x - 3) * v - y * (u - 3)
+    assert components_off((*kite, *dyad, in_line), (), Budget(20)) == 2
