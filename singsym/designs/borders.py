@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import combinations
+from itertools import chain, combinations
 
 from singsym.classes.strata.branches import Found
 from singsym.classes.strata.reflections import IDENTITY, image
@@ -200,9 +200,9 @@ class _Walls:
 
     def _off(self, bundle: Bundle, group: Equations, limits: Sequence[Polynomial]) -> list[_Wall]:
         """Where a group may vanish on an open part of a fibre."""
-        sets = [bundle.touches(group)]
+        sets: Iterator[Equations] = iter((bundle.touches(group),))
         if bundle.dimension and not limits:
-            sets += bundle.summits(group, self.family.space.variables)
+            sets = chain(sets, bundle.summits(group, self.family.space.variables))
         found = next(filter(None, (self._projected(own, MEETS) for own in sets)), None)
         if found is None:
             raise Undecided("a part of it was not seen to lie outside another class")
