@@ -138,9 +138,9 @@ class _Walls:
         for the images are closed under composition.
         """
         stratum = found.stratum
-        removed, images = list[Equations](), list[Equations]()
+        removed, images = [*self.family.space.exclusions], list[Equations]()
         if stratum.defects.types:
-            removed = [*stratum.loci, *stratum.elsewhere, *self.family.space.exclusions]
+            removed += [*stratum.loci, *stratum.elsewhere]
             images = [image(stratum.equations, r) for r in found.images if r != IDENTITY]
         with attempt("a stratum as one set", share=0.5):
             return self._as_one(stratum.equations, (*removed, *images))
