@@ -14,9 +14,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import combinations
+from itertools import chain, combinations
 
-from singsym.classes.strata.ranks import Stratum
+from singsym.classes.strata.branches import Found
+from singsym.classes.strata.reflections import IDENTITY, image
 from singsym.classes.taxonomy.types import SingularityType, feasible_classes
 from singsym.designs.bundles import Bundle
 from singsym.designs.families import Family
@@ -89,7 +90,7 @@ def borders(family: Family, seconds: float | None = 60.0) -> Borders:
         types = part.stratum.defects.types
         try:
             with current().part(seconds):
-                walls += [(types, wall) for wall in _Walls(family, premises, bounded).of(part.stratum)]
+                walls += [(types, wall) for wall in _Walls(family, premises, bounded).of(part)]
         except Undecided as reason:
             doubts[types, str(reason)] = None
     return Borders(_parts(walls), tuple(doubts), premises.certainty)
@@ -130,26 +131,35 @@ class _Walls:
     premises: Premises
     bounded: bool
 
-    def of(self, stratum: Stratum) -> list[_Wall]:
-        """The walls of a stratum: as one set, or else of its components."""
-        family = self.family
-        removed = (*stratum.loci, *stratum.elsewhere, *family.space.exclusions)
-        removed = removed if stratum.defects.types else ()
-        with attempt("a stratum as one set", share=0.5):
-            return self._as_one(stratum, removed)
-        return self._by_components(stratum, removed)
+    def of(self, found: Found) -> list[_Wall]:
+        """The walls of a stratum: as one set, or else of its components.
 
-    def _as_one(self, stratum: Stratum, removed: Sequence[Equations]) -> list[_Wall]:
+        Lemma: images that it stands for have the same walls.  Where two of them meet, so do it and an image,
+        for the images are closed under composition.
+        """
+        stratum = found.stratum
+        removed, images = [*self.family.space.exclusions], list[Equations]()
+        if stratum.defects.types:
+            removed += [*stratum.loci, *stratum.elsewhere]
+            images = [image(stratum.equations, r) for r in found.images if r != IDENTITY]
+        with attempt("a stratum as one set", share=0.5):
+            return self._as_one(stratum.equations, (*removed, *images))
+        return self._by_components(stratum.equations, removed, images)
+
+    def _as_one(self, equations: Equations, groups: Sequence[Equations]) -> list[_Wall]:
         family = self.family
-        whole = Bundle.of_equations(family.space.ring, family.others, stratum.equations)
+        whole = Bundle.of_equations(family.space.ring, family.others, equations)
         if whole.dimension < 0:
             return self._wall(whole.equations, SPECIAL, "a part of it has more equations than variables")
-        return self._of_bundle(whole, removed, tuple(self._limits()))
+        return self._of_bundle(whole, groups, tuple(self._limits()))
 
-    def _by_components(self, stratum: Stratum, removed: Sequence[Equations]) -> list[_Wall]:
+    def _by_components(
+        self, equations: Equations, removed: Sequence[Equations], images: Sequence[Equations]
+    ) -> list[_Wall]:
+        """The same of each component; one that is in what is removed is not there, one in an image is."""
         family, ring = self.family, self.family.space.ring
         single = [group[0] for group in removed if len(group) == 1]
-        pieces = self.premises.take(decompose(stratum.equations, single, ring=ring))
+        pieces = self.premises.take(decompose(equations, single, ring=ring))
         there, walls = list[Component](), list[_Wall]()
         for component in pieces:
             left = [self._not_zero(component, group) for group in removed]
@@ -159,8 +169,9 @@ class _Walls:
                 walls.append(special)
                 continue
             limits = tuple(g for g in self._limits() if self._not_zero(component, (g,)))
-            own = Bundle.of_component(component, family.others, stratum.equations)
-            walls += self._of_bundle(own, left, limits)
+            own = Bundle.of_component(component, family.others, equations)
+            met = [group for other in images if (group := self._not_zero(component, other))]
+            walls += self._of_bundle(own, (*left, *met), limits)
             there.append(component)
         for one, two in combinations(there, 2):
             both = (*one.generators, *two.generators)
@@ -168,9 +179,12 @@ class _Walls:
         return walls
 
     def _of_bundle(
-        self, bundle: Bundle, removed: Sequence[Equations], limits: Sequence[Polynomial]
+        self, bundle: Bundle, groups: Sequence[Equations], limits: Sequence[Polynomial]
     ) -> list[_Wall]:
-        """The walls of a set that is there for almost all values of the parameters."""
+        """The walls of a set that is there for almost all values of the parameters.
+
+        groups: what is taken out of it, or counted with it.
+        """
         if not self.bounded:
             raise Undecided("the configurations are not proven bounded by sums of squares")
         singular = "a part of it is singular for all values of the parameters"
@@ -180,15 +194,15 @@ class _Walls:
             walls.append(replace(wall, equations=tuple(dict.fromkeys((*bundle.equations, *fold)))))
         for face in bundle.faces(limits):
             walls += self._wall(face, LIMIT, "limits do not cut a part of it across for any values")
-        for group in removed:
+        for group in groups:
             walls += self._off(bundle, group, limits)
         return walls
 
     def _off(self, bundle: Bundle, group: Equations, limits: Sequence[Polynomial]) -> list[_Wall]:
-        """Where what is taken out of a set may have an open part of a fibre in it."""
-        sets = [bundle.touches(group)]
+        """Where a group may vanish on an open part of a fibre."""
+        sets: Iterator[Equations] = iter((bundle.touches(group),))
         if bundle.dimension and not limits:
-            sets += bundle.summits(group, self.family.space.variables)
+            sets = chain(sets, bundle.summits(group, self.family.space.variables))
         found = next(filter(None, (self._projected(own, MEETS) for own in sets)), None)
         if found is None:
             raise Undecided("a part of it was not seen to lie outside another class")

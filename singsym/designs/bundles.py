@@ -10,13 +10,16 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations, islice
 
-from singsym.minors.determinant import minors
+from singsym.effort.budget import Undecided
+from singsym.minors.determinant import TooManyTerms, minors
 from singsym.polynomials import Equations, Polynomial, PolynomialMatrix, Ring
 from singsym.varieties.decomposition import Component
 from singsym.varieties.purity import PurePiece
 
 _MOST_MINORS = 40
 """So many minors are taken; fewer may only make the border larger."""
+_MOST_TERMS = 1_000_000
+"""Of all minors of some rows together: with more an elimination has no prospects."""
 
 
 @dataclass(frozen=True)
@@ -116,10 +119,13 @@ class Bundle:
         return self._minors((*more, *self.rows), self.others, self.size + len(more))
 
     def _minors(self, rows: Sequence[Polynomial], names: Sequence[str], size: int) -> Equations:
-        """Minors, none of them zero, of the gradients of rows by some variables."""
+        """Minors, none of them zero, of gradients by some variables; raises `Undecided` for long ones."""
         gradients = [[f.derivative(x) for x in names] for f in rows]
-        found = minors(PolynomialMatrix.of(self.ring, gradients), size)
-        return tuple(islice((minor for _, _, minor in found), _MOST_MINORS))
+        found = minors(PolynomialMatrix.of(self.ring, gradients), size, _MOST_TERMS)
+        try:
+            return tuple(islice((minor for _, _, minor in found), _MOST_MINORS))
+        except TooManyTerms as many:
+            raise Undecided(f"gradients are not compared: {many}") from many
 
 
 def _forms(ring: Ring, names: Sequence[str]) -> Iterator[Polynomial]:

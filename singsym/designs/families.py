@@ -78,7 +78,7 @@ def family(
     equation = velocity_equation(mechanism, formulation)
     found, space = equation.conditions, equation.space
     problem, feasible = rank_problem(found), feasible_set(space)
-    # an image under a reflection that keeps the parameters has the same borders
+    # an image under a reflection that keeps the parameters has the same borders; where they meet is one too
     kept = reflections(feasible, space.equations, problem.matrices.values())
     symmetries = tuple(r for r in kept if not set(r) & set(space.parameters))
     root = Branch(problem, feasible, space.equations, symmetries=symmetries, seconds=seconds)

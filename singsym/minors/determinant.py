@@ -153,8 +153,10 @@ def _columns(mask: int) -> tuple[int, ...]:
     return tuple(j for j in range(mask.bit_length()) if mask >> j & 1)
 
 
-def maximal_minors(matrix: PolynomialMatrix) -> Iterator[Minor]:
+def maximal_minors(matrix: PolynomialMatrix, limit: int | None = None) -> Iterator[Minor]:
     """The nonzero minors of the largest size, as (rows, columns, minor), sharing all subminors.
+
+    limit: of the number of terms of all minors of some first rows; `TooManyTerms` beyond.
 
     >>> from singsym.polynomials import Ring
     >>> x, y = Ring(("x", "y")).gens
@@ -163,7 +165,7 @@ def maximal_minors(matrix: PolynomialMatrix) -> Iterator[Minor]:
     """
     height, width = matrix.shape
     if height > width:
-        for rows, columns, minor in maximal_minors(matrix.T):
+        for rows, columns, minor in maximal_minors(matrix.T, limit):
             yield columns, rows, minor
         return
     if not height:
@@ -171,7 +173,7 @@ def maximal_minors(matrix: PolynomialMatrix) -> Iterator[Minor]:
         return
     cleared = [_integer_row(row) for row in matrix.rows]
     order = _row_order([row for row, _ in cleared])
-    found = _expand([cleared[i][0] for i in order], [0] * height)
+    found = _expand([cleared[i][0] for i in order], [0] * height, limit)
     denominator = fmpz(1)
     for _, d in cleared:
         denominator *= d
@@ -180,10 +182,10 @@ def maximal_minors(matrix: PolynomialMatrix) -> Iterator[Minor]:
         yield tuple(range(height)), columns, Polynomial(matrix.ring, fmpq_mpoly(value) * scale)
 
 
-def minors(matrix: PolynomialMatrix, size: int) -> Iterator[Minor]:
+def minors(matrix: PolynomialMatrix, size: int, limit: int | None = None) -> Iterator[Minor]:
     """The nonzero minors of a size, as (rows, columns, minor); one of size 0, the empty one.
 
-    Subminors are shared among the minors in the same rows.
+    Subminors are shared among the minors in the same rows.  limit: as of `maximal_minors`, of these.
 
     >>> from singsym.polynomials import Ring
     >>> x, y = Ring(("x", "y")).gens
@@ -193,9 +195,9 @@ def minors(matrix: PolynomialMatrix, size: int) -> Iterator[Minor]:
     if size > min(matrix.shape):
         return
     if matrix.shape[0] > matrix.shape[1]:
-        for columns, rows, minor in minors(matrix.T, size):
+        for columns, rows, minor in minors(matrix.T, size, limit):
             yield rows, columns, minor
         return
     for rows in combinations(range(matrix.shape[0]), size):
-        for _, columns, minor in maximal_minors(matrix.select(rows)):
+        for _, columns, minor in maximal_minors(matrix.select(rows), limit):
             yield rows, columns, minor

@@ -166,11 +166,15 @@ class Sheet:
         centre, rest, turns = [arb(x) for x in near.tolist()], [arb(0)] * count, []
         for drive, value in zip(self.system.drives, given, strict=True):
             middle, radius = arb(value.mid()), arb(value.rad())
-            own = [middle.cos(), middle.sin()] if drive.is_angle else [middle]
+            own, rates = [middle], [arb(1)]
+            if drive.is_angle:
+                own, rates = [middle.cos(), middle.sin()], [-middle.sin(), middle.cos()]
+            turn = [float(rate.mid()) for rate in rates]
             bent = radius * radius / 2 if drive.is_angle else arb(0)
             centre += [arb(x.mid()) for x in own]
-            rest += [arb(0, (x.rad() + bent).upper()) for x in own]
-            turns.append([-float(own[1].mid()), float(own[0].mid())] if drive.is_angle else [1.0])
+            for x, rate, rounded in zip(own, rates, turn, strict=True):
+                rest.append(arb(0, (x.rad() + bent + radius * abs(rate - rounded)).upper()))
+            turns.append(turn)
         slopes = self._map.jacobian(np.array([float(x) for x in centre]))
         square = slopes[:, self._places]
         if not np.isfinite(square).all() or numerical_rank(square, 1e-13).rank < count:

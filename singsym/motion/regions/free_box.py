@@ -57,9 +57,8 @@ def free_box(found: Analysis, *, tests: int = TESTS) -> FreeBox:
     """A proven box around a configuration that `at` has examined, for any mobility.
 
     It is grown on all sides at once, then side by side, as far as the proof goes: a larger one may be free as
-    well.  tests: so many boxes
-    are tried; more make it larger.  Raises `MechanismError` where the configuration is not proven to be
-    regular and within limits, or the inputs' values are not known.
+    well.  tests: so many boxes are tried; more make it larger.  Raises `MechanismError` where the
+    configuration is not proven to be regular and within limits, or the inputs' values are not known.
 
     >>> from singsym.classes.configuration.at import at
     >>> from singsym.mechanism import load

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property, cmp_to_key
 
 import networkx as nx
@@ -170,9 +171,16 @@ class CutCurve:
 
 
 def _around(box: Box) -> Balls:
-    """A ball that holds a box."""
+    """A ball that holds a box, around its middle in doubles.
+
+    >>> from flint import arb
+    >>> third = _around((arb(1) / 3,))
+    >>> abs(Fraction(1, 3) - Fraction(third.mid.item())) < Fraction(third.rad.item())
+    True
+    """
     middle = np.array([[float(b.mid()) for b in box]])
-    widths = [max(abs(e - m) for e in exact_bounds(b)) for b, m in zip(box, middle[0], strict=True)]
+    exact = map(Fraction, middle[0].tolist())
+    widths = [max(abs(e - m) for e in exact_bounds(b)) for b, m in zip(box, exact, strict=True)]
     radius = float(max(widths)) * (1 + 1e-12) * np.sqrt(len(box)) + 1e-300
     return Balls(middle, np.full_like(middle, radius))
 
