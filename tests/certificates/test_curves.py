@@ -15,7 +15,7 @@ import pytest
 from singsym.certificates.checker.curves import components
 from singsym.certificates.checker.polynomials import Rejected
 from singsym.certificates.checker.sets import RealSet, statement
-from singsym.certificates.checker.table import Finding, Row, contradicted, proven_row, unproven
+from singsym.certificates.checker.table import Finding, proven_row
 from singsym.certificates.checker.verification import FORMAT, verify
 from singsym.certificates.prover.loops import curve_leaf
 from singsym.certificates.prover.proof import Hints, based, prove
@@ -34,9 +34,16 @@ def data(variables: list[str], *equations: str) -> dict[str, Any]:
 
 def numbers(lines: Lines, about: dict[str, Any], path: Path) -> tuple[int | None, int | None]:
     """Components of the row, of each curve by itself and of all together."""
-    header = {"format": FORMAT, "name": "own", "claims": [{"types": "RI, IO", "occurs": True}]}
+    curves = [number for number, line in enumerate(lines, 3) if "curve" in line]
+    by_themselves, all_together = (_components(lines, about, path, own) for own in ([], [curves]))
+    return by_themselves, all_together
+
+
+def _components(lines: Lines, about: dict[str, Any], path: Path, together: list[list[int]]) -> int | None:
+    claim = {"types": "RI, IO", "occurs": True, "together": together}
+    header = {"format": FORMAT, "name": "own", "claims": [claim]}
     found = verify(Certificate((header, about, *lines)).write(path))
-    return next((row.components, row.together) for row in found.proven if row.types == "RI, IO")
+    return next(row.components for row in found.proven if row.types == "RI, IO")
 
 
 def two_circles(shift: int) -> dict[str, Any]:
@@ -50,14 +57,14 @@ def two_circles(shift: int) -> dict[str, Any]:
 def test_two_circles(shift: int, together: int, tmp_path: Path) -> None:
     """Centres 1 apart: they meet at (1/2, +-sqrt(3)/2); 3 apart: they do not; 2: they touch at (1, 0)."""
     about = two_circles(shift)
-    lines = prove(statement(about), Hints(curves=True))
+    lines = prove(statement(about), Hints(curves=True)).lines
     assert numbers(lines, about, tmp_path / "circles") == (2, together)
 
 
 def test_curves_that_are_counted_by_themselves_may_meet(tmp_path: Path) -> None:
     """Circles that meet are two by themselves and one together; without their points that is not known."""
     about = two_circles(1)
-    lines = copy.deepcopy(prove(statement(about), Hints(curves=True)))
+    lines = copy.deepcopy(prove(statement(about), Hints(curves=True)).lines)
     assert numbers(lines, about, tmp_path / "circles") == (2, 1)
     del _curve_with_meetings(lines)["meets"]
     assert numbers(lines, about, tmp_path / "circles") == (2, None)
@@ -91,7 +98,7 @@ def test_circles_that_meet_are_not_counted_apart(
 ) -> None:
     """Without all their points in common nothing is known of the number of pieces, or it is refused."""
     about = two_circles(1)
-    lines = copy.deepcopy(prove(statement(about), Hints(curves=True)))
+    lines = copy.deepcopy(prove(statement(about), Hints(curves=True)).lines)
     damage(_curve_with_meetings(lines))
     try:
         assert numbers(lines, about, tmp_path / "circles") == (2, None)
@@ -131,14 +138,28 @@ def test_a_curve_that_may_be_of_two_types_counts_for_neither() -> None:
     assert proven_row("RI, IO", [sure, doubtful]).components is None
 
 
-@pytest.mark.parametrize(
-    ("claimed", "contradiction", "proven"),
-    [(2, False, True), (4, False, True), (3, False, False), (5, True, False), (1, True, False)],
-)
-def test_a_claim_counts_curves_by_themselves_or_together(
-    claimed: int, contradiction: bool, proven: bool
-) -> None:
-    """Of four curves that are two together: both numbers are proven, three is neither that nor wrong."""
-    claim, row = Row("RI, IO", True, 1, None, claimed), Row("RI, IO", True, 1, None, 4, 2)
-    assert contradicted(claim, row) == contradiction
-    assert contradiction or (not unproven(claim, row)) == proven
+@pytest.mark.parametrize(("joined", "right"), [(False, 2), (True, 1)])
+def test_one_number_is_proven(joined: bool, right: int, tmp_path: Path) -> None:
+    """Circles that meet: a claim says whether they are counted together, and no other number is proven."""
+    about = two_circles(1)
+    lines = prove(statement(about), Hints(curves=True)).lines
+    own = [[number for number, line in enumerate(lines, 3) if "curve" in line]] if joined else []
+    for claimed in (1, 2):
+        claim = {"types": "RI, IO", "occurs": True, "dimension": 1, "components": claimed, "together": own}
+        header = {"format": FORMAT, "name": "own", "claims": [claim]}
+        path = Certificate((header, about, *lines)).write(tmp_path / "circles")
+        if claimed == right:
+            verify(path)
+        else:
+            with pytest.raises(Rejected, match="proven is"):
+                verify(path)
+
+
+@pytest.mark.parametrize("together", [[[3]], [[1, 1]], [["a"]], [[[]]], [3], "a", [[10**6]]])
+def test_only_curves_of_the_row_are_counted_together(together: Any, tmp_path: Path) -> None:
+    """Line 3 is no curve here; nor is one counted twice."""
+    about = two_circles(1)
+    lines = prove(statement(about), Hints(curves=True)).lines
+    assert "curve" not in lines[0]
+    with pytest.raises(Rejected, match=r"claims|together"):
+        _components(lines, about, tmp_path / "circles", together)

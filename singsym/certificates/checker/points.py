@@ -19,7 +19,6 @@ from singsym.certificates.checker.sets import MATRICES, RealSet, Statement, list
 
 MOST_BITS = 4096
 
-
 Found = tuple[str, int, Callable[[fmpq_mpoly], bool]]
 """The types of points, their number, and whether a polynomial vanishes at them, conjugate as they are."""
 

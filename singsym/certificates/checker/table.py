@@ -14,7 +14,9 @@ from flint import fmpq_mpoly
 
 from singsym.certificates.checker.curves import Loops
 from singsym.certificates.checker.polynomials import Rejected
-from singsym.certificates.checker.sets import RealSet
+from singsym.certificates.checker.sets import RealSet, listed
+
+Groups = tuple[tuple[int, ...], ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +53,8 @@ class Finding:
 class Row:
     """What is known of the configurations of exactly some types; None: not proven.
 
-    components: connected ones, of each curve by itself, closed up; together: of all of them, which may meet.
+    components: connected ones, curves closed up; together: lists of lines of curves, of which those of one
+    list are counted together, where they may meet, and all others by themselves.
     """
 
     types: str
@@ -59,24 +62,24 @@ class Row:
     dimension: int | None = None
     points: int | None = None
     components: int | None = None
-    together: int | None = field(default=None, compare=False)
+    together: Groups = ()
 
     def text(self) -> str:
         """The row in words."""
         if not self.occurs:
             return f"{self.types}: {'not proven' if self.occurs is None else 'empty'}"
-        together = None if self.together == self.components else self.together
-        numbers = ((self.points, "points"), (self.components, "components"), (together, "together"))
+        numbers = ((self.points, "points"), (self.components, "components"))
         sizes = [f"{k} {word}" for k, word in numbers if k is not None]
+        groups = [f"curves of lines {', '.join(map(str, own))} together" for own in self.together]
         dimension = "dimension not proven" if self.dimension is None else f"dimension {self.dimension}"
-        return f"{self.types}: occurs, {', '.join((dimension, *sizes))}"
+        return f"{self.types}: occurs, {', '.join((dimension, *sizes, *groups))}"
 
 
-def proven_row(types: str, findings: Iterable[Finding]) -> Row:
-    """The row that all leaves of a certificate prove together."""
+def proven_row(types: str, findings: Iterable[Finding], together: Groups = ()) -> Row:
+    """The row that all leaves of a certificate prove; raises `Rejected` where `together` is not of curves."""
     own = [f for f in findings if types in f.types and f.high >= 0]
     if not own:
-        return Row(types, False, -1, 0, 0, 0)
+        return Row(types, False, -1, 0, 0)
     sure = [f for f in own if f.low >= 0 and len(f.types) == 1]
     if not sure:
         return Row(types, None)
@@ -85,8 +88,13 @@ def proven_row(types: str, findings: Iterable[Finding]) -> Row:
     # points that lie on a curve of the row are no components of their own
     curves = [f for f in own if f.components is not None and len(f.types) == 1]
     apart = [f.points for f in own if f not in curves and not any(c.holds(f) for c in curves)]
-    numbers = points, _sum([*apart, *(_pieces([f]) for f in curves)]), _sum([*apart, _pieces(curves)])
-    return Row(types, True, low if low == high else None, *numbers)
+    by_line = {f.line: f for f in curves}
+    if wrong := {*chain(*together)} - {*by_line}:
+        raise Rejected(f"claims: {types}: there are no curves of it in lines {sorted(wrong)}")
+    counted = [[by_line[k] for k in sorted(own)] for own in together]
+    counted += [[f] for f in curves if f.line not in chain(*together)]
+    components = _sum([*apart, *map(_pieces, counted)])
+    return Row(types, True, low if low == high else None, points, components, together)
 
 
 def _sum(numbers: Iterable[int | None]) -> int | None:
@@ -117,10 +125,16 @@ def _claimed(entry: Any) -> Row:
     if not isinstance(entry, Mapping) or not isinstance(entry.get("types"), str):
         raise Rejected(f"claims: expected rows with types, got {str(entry)[:80]}")
     occurs = entry.get("occurs")
-    numbers = [entry.get(key) for key in ("dimension", "points", "components")]
+    dimension, points, components = numbers = [
+        entry.get(key) for key in ("dimension", "points", "components")
+    ]
     if occurs not in (True, False, None) or not all(k is None or type(k) is int for k in numbers):
         raise Rejected(f"claims: expected true or false, and numbers, got {str(entry)[:80]}")
-    return Row(entry["types"], occurs, *numbers)
+    together = tuple(map(tuple, listed(entry, "together", list, [])))
+    lines = [*chain(*together)]
+    if not all(type(k) is int for k in lines) or len({*lines}) < len(lines):
+        raise Rejected(f"claims: expected each curve once, got {str(together)[:80]}")
+    return Row(entry["types"], occurs, dimension, points, components, together)
 
 
 def contradicted(claim: Row, proven: Row) -> bool:
@@ -149,12 +163,5 @@ def _pairs(claim: Row, proven: Row) -> tuple[tuple[str, Any, Any], ...]:
         whether,
         ("dimension", claim.dimension, proven.dimension),
         ("number of points", claim.points, proven.points),
-        ("number of components", claim.components, _components(claim.components, proven)),
+        ("number of components", claim.components, proven.components),
     )
-
-
-def _components(claimed: int | None, proven: Row) -> int | None:
-    """The number that a claim is about: all curves by themselves, or together; None where it is between."""
-    least, most = proven.together, proven.components
-    between = claimed is not None and most is not None and (least or 0) < claimed < most
-    return least if claimed == least else None if between else most
