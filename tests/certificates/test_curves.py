@@ -34,12 +34,17 @@ def data(variables: list[str], *equations: str) -> dict[str, Any]:
 
 def numbers(lines: Lines, about: dict[str, Any], path: Path) -> tuple[int | None, int | None]:
     """Components of the row, of each curve by itself and of all together."""
-    curves = [number for number, line in enumerate(lines, 3) if "curve" in line]
-    by_themselves, all_together = (_components(lines, about, path, own) for own in ([], [curves]))
+    by_themselves, all_together = (_components(lines, about, path, own) for own in ([], [loops(lines)]))
     return by_themselves, all_together
 
 
-def _components(lines: Lines, about: dict[str, Any], path: Path, together: list[list[int]]) -> int | None:
+def loops(lines: Lines) -> list[list[int]]:
+    """All loops of a proof, each by its line and place."""
+    numbered = ((number, line.get("curve", {"loops": []})) for number, line in enumerate(lines, 3))
+    return [[number, k] for number, curve in numbered for k in range(len(curve["loops"]))]
+
+
+def _components(lines: Lines, about: dict[str, Any], path: Path, together: Any) -> int | None:
     claim = {"types": "RI, IO", "occurs": True, "together": together}
     header = {"format": FORMAT, "name": "own", "claims": [claim]}
     found = verify(Certificate((header, about, *lines)).write(path))
@@ -143,7 +148,7 @@ def test_one_number_is_proven(joined: bool, right: int, tmp_path: Path) -> None:
     """Circles that meet: a claim says whether they are counted together, and no other number is proven."""
     about = two_circles(1)
     lines = prove(statement(about), Hints(curves=True)).lines
-    own = [[number for number, line in enumerate(lines, 3) if "curve" in line]] if joined else []
+    own = [loops(lines)] if joined else []
     for claimed in (1, 2):
         claim = {"types": "RI, IO", "occurs": True, "dimension": 1, "components": claimed, "together": own}
         header = {"format": FORMAT, "name": "own", "claims": [claim]}
@@ -155,11 +160,35 @@ def test_one_number_is_proven(joined: bool, right: int, tmp_path: Path) -> None:
                 verify(path)
 
 
-@pytest.mark.parametrize("together", [[[3]], [[1, 1]], [["a"]], [[[]]], [3], "a", [[10**6]]])
-def test_only_curves_of_the_row_are_counted_together(together: Any, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    "together", [[[[3, 0]]], [[[1, 1], [1, 1]]], [[["a", 0]]], [[[[]]]], [[3]], [3], "a", [[[]]]]
+)
+def test_only_loops_of_the_row_are_counted_together(together: Any, tmp_path: Path) -> None:
     """Line 3 is no curve here; nor is one counted twice."""
     about = two_circles(1)
     lines = prove(statement(about), Hints(curves=True)).lines
     assert "curve" not in lines[0]
     with pytest.raises(Rejected, match=r"claims|together"):
         _components(lines, about, tmp_path / "circles", together)
+
+
+@pytest.mark.parametrize(
+    ("variables", "equation", "curve"),
+    [
+        (
+            ["x"],
+            "x^2 - 1",
+            {"square": [], "bounded": [[0, ["x"]]], "loops": [], "critical": {"variable": "x"}},
+        ),
+        (["x", "y"], "x^2 + y^2 - 1", {"bounded": [[0, ["x", "y"]]], "loops": [[0]]}),
+    ],
+)
+def test_what_is_no_curve_is_refused(
+    variables: list[str], equation: str, curve: dict[str, Any], tmp_path: Path
+) -> None:
+    """Points on a line, of which a square system has no equations; and a loop of what is no tube."""
+    evidence = {"L_I": [{"rows": [0], "columns": [0], "units": []}], "L_O": [{"below": 1}]}
+    nothing = {"implied": {"local": "0", "steps": [], "equations": [0]}}
+    leaf = {"at": 0, "rule": "ranks", "ranks": evidence, "curve": {**nothing, **curve}}
+    with pytest.raises(Rejected, match=r"a curve: expected|expected a tube"):
+        numbers([leaf], data(variables, equation), tmp_path / "curve")

@@ -140,8 +140,7 @@ class Chart:
 
     def balls(self, there: fmpq_poly) -> list[list[arb]]:
         """Balls around the points of the real roots of a polynomial without double roots."""
-        polynomials = [f.coeffs() for f in self.images]
-        values = [[horner(f, root) for f in polynomials] for root in real_roots(there)]
+        values = [[horner(f.coeffs(), root) for f in self.images] for root in real_roots(there)]
         return [[value / below for value in own] for *own, below in values]
 
 

@@ -16,7 +16,7 @@ from singsym.certificates.checker.curves import Loops
 from singsym.certificates.checker.polynomials import Rejected
 from singsym.certificates.checker.sets import RealSet, listed
 
-Groups = tuple[tuple[int, ...], ...]
+Groups = tuple[tuple[tuple[int, ...], ...], ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,8 +53,8 @@ class Finding:
 class Row:
     """What is known of the configurations of exactly some types; None: not proven.
 
-    components: connected ones, curves closed up; together: lists of lines of curves, of which those of one
-    list are counted together, where they may meet, and all others by themselves.
+    components: connected ones, curves closed up; together: lists of loops, each by its line and place, of
+    which those of one list are counted together, where they may meet, and all others by themselves.
     """
 
     types: str
@@ -70,7 +70,7 @@ class Row:
             return f"{self.types}: {'not proven' if self.occurs is None else 'empty'}"
         numbers = ((self.points, "points"), (self.components, "components"))
         sizes = [f"{k} {word}" for k, word in numbers if k is not None]
-        groups = [f"curves of lines {', '.join(map(str, own))} together" for own in self.together]
+        groups = [f"{len(own)} loops together" for own in self.together]
         dimension = "dimension not proven" if self.dimension is None else f"dimension {self.dimension}"
         return f"{self.types}: occurs, {', '.join((dimension, *sizes, *groups))}"
 
@@ -88,12 +88,8 @@ def proven_row(types: str, findings: Iterable[Finding], together: Groups = ()) -
     # points that lie on a curve of the row are no components of their own
     curves = [f for f in own if f.components is not None and len(f.types) == 1]
     apart = [f.points for f in own if f not in curves and not any(c.holds(f) for c in curves)]
-    by_line = {f.line: f for f in curves}
-    if wrong := {*chain(*together)} - {*by_line}:
-        raise Rejected(f"claims: {types}: there are no curves of it in lines {sorted(wrong)}")
-    counted = [[by_line[k] for k in sorted(own)] for own in together]
-    counted += [[f] for f in curves if f.line not in chain(*together)]
-    components = _sum([*apart, *map(_pieces, counted)])
+    alone = {(f.line, k) for f in curves for k in range(len(f.components or ()))} - {*chain(*together)}
+    components = _sum([*apart, len(alone), *(_pieces(curves, own) for own in together)])
     return Row(types, True, low if low == high else None, points, components, together)
 
 
@@ -102,15 +98,19 @@ def _sum(numbers: Iterable[int | None]) -> int | None:
     return None if None in known else sum(k for k in known if k is not None)
 
 
-def _pieces(curves: Sequence[Finding]) -> int | None:
-    """How many connected components curves have together; None where it is not known which loops meet."""
-    piece = {(f.line, k): (f.line, k) for f in curves for k in range(len(f.components or ()))}
-    for one, two in combinations(curves, 2):
+def _pieces(curves: Sequence[Finding], own: Sequence[tuple[int, ...]]) -> int | None:
+    """How many connected components loops have together; None where it is not known which of them meet."""
+    piece = {loop: loop for loop in own}
+    known = {(f.line, k) for f in curves for k in range(len(f.components or ()))}
+    if not known.issuperset(own):
+        raise Rejected(f"claims: there are no curves of these types with the loops {str(own)[:80]}")
+    for one, two in combinations([f for f in curves if any(f.line == loop[0] for loop in own)], 2):
         if one.line not in two.joins and one.overlaps(two):
             return None
         for k, i in two.joins.get(one.line, ()):
-            old, new = piece[two.line, k], piece[one.line, i]
-            piece = {key: new if of == old else of for key, of in piece.items()}
+            if (two.line, k) in piece and (one.line, i) in piece:
+                old, new = piece[two.line, k], piece[one.line, i]
+                piece = {key: new if of == old else of for key, of in piece.items()}
     return len({*piece.values()})
 
 
@@ -130,17 +130,17 @@ def _claimed(entry: Any) -> Row:
     ]
     if occurs not in (True, False, None) or not all(k is None or type(k) is int for k in numbers):
         raise Rejected(f"claims: expected true or false, and numbers, got {str(entry)[:80]}")
-    together = tuple(map(tuple, listed(entry, "together", list, [])))
-    lines = [*chain(*together)]
-    if not all(type(k) is int for k in lines) or len({*lines}) < len(lines):
-        raise Rejected(f"claims: expected each curve once, got {str(together)[:80]}")
+    groups = [listed({"together": own}, "together", list) for own in listed(entry, "together", list, [])]
+    together = tuple(tuple(map(tuple, own)) for own in groups)
+    loops = [*chain(*together)]
+    if any(type(k) is not int for k in chain(*loops)) or len({*loops}) < len(loops):
+        raise Rejected(f"claims: expected each loop once, [line, place], got {str(together)[:80]}")
     return Row(entry["types"], occurs, dimension, points, components, together)
 
 
 def contradicted(claim: Row, proven: Row) -> bool:
     """Whether what is claimed of a row is proven to be wrong."""
-    pairs = _pairs(claim, proven)
-    return any(a is not None and b is not None and a != b for _, a, b in pairs)
+    return any(a is not None and b is not None and a != b for _, a, b in _pairs(claim, proven))
 
 
 def unproven(claim: Row, proven: Row) -> list[str]:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from singsym.certificates.checker.polynomials import remainder
+from singsym.certificates.checker.balls import is_off_zero
 from singsym.certificates.checker.sets import statement
 from singsym.certificates.checker.table import Finding
 from singsym.certificates.checker.verification import FORMAT
@@ -85,23 +85,28 @@ def _claim(found: ClassResult, curves: Sequence[Finding]) -> dict[str, Any]:
     return row
 
 
-def _together(found: ClassResult, curves: Sequence[Finding]) -> list[list[int]]:
-    """The lines of curves that a table counts together: those of one stratum, or of one image of it."""
-    left = [curve for curve in curves if curve.types == {found.singularity_class.name}]
-    groups: list[list[int]] = []
+def _together(found: ClassResult, curves: Sequence[Finding]) -> list[list[list[int]]]:
+    """The loops of curves that a table counts together: those of one stratum, or of one image of it.
+
+    Which these are is only seen in balls around points of them.
+    """
+    own = [curve for curve in curves if curve.types == {found.singularity_class.name}]
+    left = [[curve.line, k] for curve in own for k in range(len(curve.components or ()))]
+    by_line = {curve.line: curve for curve in own}
+    groups: list[list[list[int]]] = []
     for piece in found.pieces if found.dimension == 1 else ():
-        own = [curve for curve in left if _is_along(curve, piece)]
-        left = [curve for curve in left if curve not in own]
-        groups.append([curve.line for curve in own])
-    return [lines for lines in groups if len(lines) > 1]
+        groups.append([loop for loop in left if _is_along(by_line[loop[0]], loop[1], piece)])
+        left = [loop for loop in left if loop not in groups[-1]]
+    return [loops for loops in groups if len(loops) > 1]
 
 
-def _is_along(curve: Finding, piece: Piece) -> bool:
-    """Whether a curve is seen to lie in a piece, closed up, and not in what the piece leaves out."""
+def _is_along(curve: Finding, place: int, piece: Piece) -> bool:
+    """Whether a loop of a curve seems to lie in a piece, closed up, and not in what the piece leaves out."""
+    points = [tube.start for tube in (curve.components or ())[place]]
 
     def lies_in(equations: Equations) -> bool:
-        own = (e.value.project_to_context(curve.at.context) for e in equations)
-        return not any(remainder(e, curve.at.equations) for e in own)
+        own = [e.value.project_to_context(curve.at.context) for e in equations]
+        return not any(is_off_zero(e, point) for e in own for point in points)
 
     return lies_in(piece.basis) and not any(lies_in(group) for group in piece.exclusions)
 
