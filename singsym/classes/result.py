@@ -125,7 +125,7 @@ class Locus:
 class ClassResult:
     """One of the 21 classes for a mechanism.
 
-    extent: its real dimension.  components: connected components of a curve, each locus counted by itself and
+    extent: its real dimension.  components: connected components of a curve, each piece counted by itself and
     closed up, before points of other classes are taken out.  open: why a count is not known although it was
     looked for; remark: why it was not.
     steps: the steps of section 3.2 in which it was found or excluded.

@@ -96,8 +96,10 @@ def _shortly(part: Equations, group: Equations) -> Equations:
         return part
     (rest,) = (p for p in part if p not in linear)
     for known in sorted(group, key=lambda p: (len(p.variables), len(p))):
-        if known.total_degree > 1 and Ideal(known.ring, (*linear, known)).contains(rest).value:
-            return (*linear, known)
+        if known.total_degree > 1:
+            inside = Ideal(known.ring, (*linear, known)).contains(rest)
+            if inside.value and inside.is_proven:
+                return (*linear, known)
     return part
 
 

@@ -181,6 +181,11 @@ def test_a_box_without_a_point() -> None:
             dimension_below(at, point | wrong)
 
 
+def test_the_one_point_without_variables() -> None:
+    at = about([], [["1", "1"]], ["output", "input"], variables=[]).whole
+    assert dimension_below(at, {"fixed": {}, "centre": {}, "radius": "1", "square": []}) == 0
+
+
 def test_a_point_of_a_square_system_that_is_none_of_the_set() -> None:
     """Of x^2 + y^2 = 1 and x = y the first alone has the point (3/5, 4/5)."""
     point = {"fixed": {"x": "3/5"}, "centre": {"y": "4/5"}, "radius": "1/100", "square": [0]}

@@ -15,7 +15,7 @@ import pytest
 from singsym.certificates.checker.curves import components
 from singsym.certificates.checker.polynomials import Rejected
 from singsym.certificates.checker.sets import RealSet, statement
-from singsym.certificates.checker.table import Finding, Row, contradicted, proven_row, unproven
+from singsym.certificates.checker.table import Finding, proven_row
 from singsym.certificates.checker.verification import FORMAT, verify
 from singsym.certificates.prover.loops import curve_leaf
 from singsym.certificates.prover.proof import Hints, based, prove
@@ -34,9 +34,21 @@ def data(variables: list[str], *equations: str) -> dict[str, Any]:
 
 def numbers(lines: Lines, about: dict[str, Any], path: Path) -> tuple[int | None, int | None]:
     """Components of the row, of each curve by itself and of all together."""
-    header = {"format": FORMAT, "name": "own", "claims": [{"types": "RI, IO", "occurs": True}]}
+    by_themselves, all_together = (_components(lines, about, path, own) for own in ([], [loops(lines)]))
+    return by_themselves, all_together
+
+
+def loops(lines: Lines) -> list[list[int]]:
+    """All loops of a proof, each by its line and place."""
+    numbered = ((number, line.get("curve", {"loops": []})) for number, line in enumerate(lines, 3))
+    return [[number, k] for number, curve in numbered for k in range(len(curve["loops"]))]
+
+
+def _components(lines: Lines, about: dict[str, Any], path: Path, together: Any) -> int | None:
+    claim = {"types": "RI, IO", "occurs": True, "together": together}
+    header = {"format": FORMAT, "name": "own", "claims": [claim]}
     found = verify(Certificate((header, about, *lines)).write(path))
-    return next((row.components, row.together) for row in found.proven if row.types == "RI, IO")
+    return next(row.components for row in found.proven if row.types == "RI, IO")
 
 
 def two_circles(shift: int) -> dict[str, Any]:
@@ -50,14 +62,14 @@ def two_circles(shift: int) -> dict[str, Any]:
 def test_two_circles(shift: int, together: int, tmp_path: Path) -> None:
     """Centres 1 apart: they meet at (1/2, +-sqrt(3)/2); 3 apart: they do not; 2: they touch at (1, 0)."""
     about = two_circles(shift)
-    lines = prove(statement(about), Hints(curves=True))
+    lines = prove(statement(about), Hints(curves=True)).lines
     assert numbers(lines, about, tmp_path / "circles") == (2, together)
 
 
 def test_curves_that_are_counted_by_themselves_may_meet(tmp_path: Path) -> None:
     """Circles that meet are two by themselves and one together; without their points that is not known."""
     about = two_circles(1)
-    lines = copy.deepcopy(prove(statement(about), Hints(curves=True)))
+    lines = copy.deepcopy(prove(statement(about), Hints(curves=True)).lines)
     assert numbers(lines, about, tmp_path / "circles") == (2, 1)
     del _curve_with_meetings(lines)["meets"]
     assert numbers(lines, about, tmp_path / "circles") == (2, None)
@@ -91,7 +103,7 @@ def test_circles_that_meet_are_not_counted_apart(
 ) -> None:
     """Without all their points in common nothing is known of the number of pieces, or it is refused."""
     about = two_circles(1)
-    lines = copy.deepcopy(prove(statement(about), Hints(curves=True)))
+    lines = copy.deepcopy(prove(statement(about), Hints(curves=True)).lines)
     damage(_curve_with_meetings(lines))
     try:
         assert numbers(lines, about, tmp_path / "circles") == (2, None)
@@ -131,14 +143,52 @@ def test_a_curve_that_may_be_of_two_types_counts_for_neither() -> None:
     assert proven_row("RI, IO", [sure, doubtful]).components is None
 
 
+@pytest.mark.parametrize(("joined", "right"), [(False, 2), (True, 1)])
+def test_one_number_is_proven(joined: bool, right: int, tmp_path: Path) -> None:
+    """Circles that meet: a claim says whether they are counted together, and no other number is proven."""
+    about = two_circles(1)
+    lines = prove(statement(about), Hints(curves=True)).lines
+    own = [loops(lines)] if joined else []
+    for claimed in (1, 2):
+        claim = {"types": "RI, IO", "occurs": True, "dimension": 1, "components": claimed, "together": own}
+        header = {"format": FORMAT, "name": "own", "claims": [claim]}
+        path = Certificate((header, about, *lines)).write(tmp_path / "circles")
+        if claimed == right:
+            verify(path)
+        else:
+            with pytest.raises(Rejected, match="proven is"):
+                verify(path)
+
+
 @pytest.mark.parametrize(
-    ("claimed", "contradiction", "proven"),
-    [(2, False, True), (4, False, True), (3, False, False), (5, True, False), (1, True, False)],
+    "together", [[[[3, 0]]], [[[1, 1], [1, 1]]], [[["a", 0]]], [[[[]]]], [[3]], [3], "a", [[[]]]]
 )
-def test_a_claim_counts_curves_by_themselves_or_together(
-    claimed: int, contradiction: bool, proven: bool
+def test_only_loops_of_the_row_are_counted_together(together: Any, tmp_path: Path) -> None:
+    """Line 3 is no curve here; nor is one counted twice."""
+    about = two_circles(1)
+    lines = prove(statement(about), Hints(curves=True)).lines
+    assert "curve" not in lines[0]
+    with pytest.raises(Rejected, match=r"claims|together"):
+        _components(lines, about, tmp_path / "circles", together)
+
+
+@pytest.mark.parametrize(
+    ("variables", "equation", "curve"),
+    [
+        (
+            ["x"],
+            "x^2 - 1",
+            {"square": [], "bounded": [[0, ["x"]]], "loops": [], "critical": {"variable": "x"}},
+        ),
+        (["x", "y"], "x^2 + y^2 - 1", {"bounded": [[0, ["x", "y"]]], "loops": [[0]]}),
+    ],
+)
+def test_what_is_no_curve_is_refused(
+    variables: list[str], equation: str, curve: dict[str, Any], tmp_path: Path
 ) -> None:
-    """Of four curves that are two together: both numbers are proven, three is neither that nor wrong."""
-    claim, row = Row("RI, IO", True, 1, None, claimed), Row("RI, IO", True, 1, None, 4, 2)
-    assert contradicted(claim, row) == contradiction
-    assert contradiction or (not unproven(claim, row)) == proven
+    """Points on a line, of which a square system has no equations; and a loop of what is no tube."""
+    evidence = {"L_I": [{"rows": [0], "columns": [0], "units": []}], "L_O": [{"below": 1}]}
+    nothing = {"implied": {"local": "0", "steps": [], "equations": [0]}}
+    leaf = {"at": 0, "rule": "ranks", "ranks": evidence, "curve": {**nothing, **curve}}
+    with pytest.raises(Rejected, match=r"a curve: expected|expected a tube"):
+        numbers([leaf], data(variables, equation), tmp_path / "curve")

@@ -226,7 +226,7 @@ def _is_wrong(row: Row, right: Row) -> bool:
 @pytest.mark.parametrize("case", CASES)
 def test_no_certificate_of_the_wrong_answer(case: Callable[[], Case], tmp_path: Path) -> None:
     made = case()
-    honest = prove(statement(made.data), Hints())
+    honest = prove(statement(made.data), Hints()).lines
     for lines in _forged(made, honest):
         try:
             found = verify(_certificate(made, lines).write(tmp_path / "forged"))
@@ -248,7 +248,7 @@ def test_a_curve_is_not_counted_with_one_beside_it(tmp_path: Path) -> None:
     """
     f = x**2 + y**2 - 1
     both = _data([z * (z - 1), f], [[1, 0]], ONE, x, y, z)
-    (derived, leaf) = prove(statement(both), Hints(curves=True))
+    (derived, leaf) = prove(statement(both), Hints(curves=True)).lines
     curve = leaf["curve"]
     assert len(curve["loops"]) == 2
     case = circles_in_two_planes()

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from random import Random
 
@@ -35,8 +35,8 @@ class Trial:
 
 
 def says_no_more(row: Row, true: Row) -> bool:
-    """Whether all that a row knows is what the true one knows."""
-    keys = ("occurs", "dimension", "points", "components", "together")
+    """Whether all that a row knows is what the true one knows, for the same curves that are together."""
+    keys = ("occurs", "dimension", "points", *(["components"] if row.together == true.together else []))
     pairs = [(getattr(row, key), getattr(true, key)) for key in keys]
     return all(known is None or known == right for known, right in pairs)
 
@@ -54,9 +54,9 @@ def trials(whole: Certificate, count: int, random: Random, folder: Path) -> list
 
 
 def _joined(row: Row, other: Row) -> Row:
-    keys = ("occurs", "dimension", "points", "components", "together")
-    known = [(getattr(row, key), getattr(other, key)) for key in keys]
-    return Row(row.types, *(b if a is None else a for a, b in known))
+    keys = ("occurs", "dimension", "points", "components")
+    known = {key: (getattr(row, key), getattr(other, key)) for key in keys}
+    return replace(row, **{key: b if a is None else a for key, (a, b) in known.items()})
 
 
 def _trial(damage: Damage, true: Sequence[Row], path: Path) -> Trial:

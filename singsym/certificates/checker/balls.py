@@ -27,7 +27,7 @@ class Compiled:
 
         Powers are products, as a power of a ball that holds zero would be none.
         """
-        total = values[0] * 0
+        total = values[0] * 0 if values else arb(0)
         for term, places in self.terms:
             for i in places:
                 term = term * values[i]

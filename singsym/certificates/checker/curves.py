@@ -38,8 +38,8 @@ def components(at: RealSet, data: Line) -> Loops:
     that is in the set, so that the loop is its closure.
     """
     own, local = square_system(at, data)
-    if len(own) != len(at.variables) - 1 or at.positive or at.nonnegative:
-        raise Rejected("a curve: expected one equation less than variables, and no inequalities")
+    if not own or len(own) != len(at.variables) - 1 or at.positive or at.nonnegative:
+        raise Rejected("a curve: expected equations, one less than variables, and no inequalities")
     _check_bounded(at, listed(data, "bounded", list))
     system = Tubes(own)
     with ctx.workprec(BITS):
@@ -159,8 +159,9 @@ class Tubes:
             ends.append(tuple(point))
         return Tube(*numbers, ends[0], ends[1], tuple(box))
 
-    def _read(self, entry: list[Any]) -> tuple[int, arb, arb, tuple[arb, ...], tuple[arb, ...], arb]:
+    def _read(self, entry: Any) -> tuple[int, arb, arb, tuple[arb, ...], tuple[arb, ...], arb]:
         """The numbers of a tube; raises `Rejected`."""
+        entry = entry if isinstance(entry, list) else [entry]
         lists = [part for part in entry if isinstance(part, list)]
         numbers = [x for part in entry for x in (part if isinstance(part, list) else [part])]
         if [*map(len, lists)] == 2 * [self.size] and len(entry) == 6 and all(type(x) is int for x in numbers):

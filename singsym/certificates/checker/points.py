@@ -19,7 +19,6 @@ from singsym.certificates.checker.sets import MATRICES, RealSet, Statement, list
 
 MOST_BITS = 4096
 
-
 Found = tuple[str, int, Callable[[fmpq_mpoly], bool]]
 """The types of points, their number, and whether a polynomial vanishes at them, conjugate as they are."""
 
@@ -141,8 +140,7 @@ class Chart:
 
     def balls(self, there: fmpq_poly) -> list[list[arb]]:
         """Balls around the points of the real roots of a polynomial without double roots."""
-        polynomials = [f.coeffs() for f in self.images]
-        values = [[horner(f, root) for f in polynomials] for root in real_roots(there)]
+        values = [[horner(f.coeffs(), root) for f in self.images] for root in real_roots(there)]
         return [[value / below for value in own] for *own, below in values]
 
 

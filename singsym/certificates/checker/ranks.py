@@ -49,12 +49,8 @@ def is_possible(defects: Defects, n: int) -> bool:
 
 def possible_types(bounds: Bounds, n: int) -> frozenset[str]:
     """The types that defects within these bounds can have."""
-    ranges = [range(low, high + 1) for low, high in (bounds[name] for name in MATRICES)]
-    found: set[str] = set()
-    for delta, p, inputs, outputs in product(*ranges):
-        if is_possible((delta, p, inputs, outputs), n):
-            found.add(types_of((delta, p, inputs, outputs)))
-    return frozenset(found)
+    delta, p, inputs, outputs = (range(low, high + 1) for low, high in (bounds[name] for name in MATRICES))
+    return frozenset(types_of(d) for d in product(delta, p, inputs, outputs) if is_possible(d, n))
 
 
 def bounds_on(at: RealSet, about: Statement, evidence: Mapping[str, Any]) -> Bounds:

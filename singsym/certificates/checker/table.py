@@ -14,7 +14,9 @@ from flint import fmpq_mpoly
 
 from singsym.certificates.checker.curves import Loops
 from singsym.certificates.checker.polynomials import Rejected
-from singsym.certificates.checker.sets import RealSet
+from singsym.certificates.checker.sets import RealSet, listed
+
+Groups = tuple[tuple[tuple[int, ...], ...], ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +53,8 @@ class Finding:
 class Row:
     """What is known of the configurations of exactly some types; None: not proven.
 
-    components: connected ones, of each curve by itself, closed up; together: of all of them, which may meet.
+    components: connected ones, curves closed up; together: lists of loops, each by its line and place, of
+    which those of one list are counted together, where they may meet, and all others by themselves.
     """
 
     types: str
@@ -59,24 +62,24 @@ class Row:
     dimension: int | None = None
     points: int | None = None
     components: int | None = None
-    together: int | None = field(default=None, compare=False)
+    together: Groups = ()
 
     def text(self) -> str:
         """The row in words."""
         if not self.occurs:
             return f"{self.types}: {'not proven' if self.occurs is None else 'empty'}"
-        together = None if self.together == self.components else self.together
-        numbers = ((self.points, "points"), (self.components, "components"), (together, "together"))
+        numbers = ((self.points, "points"), (self.components, "components"))
         sizes = [f"{k} {word}" for k, word in numbers if k is not None]
+        groups = [f"{len(own)} loops together" for own in self.together]
         dimension = "dimension not proven" if self.dimension is None else f"dimension {self.dimension}"
-        return f"{self.types}: occurs, {', '.join((dimension, *sizes))}"
+        return f"{self.types}: occurs, {', '.join((dimension, *sizes, *groups))}"
 
 
-def proven_row(types: str, findings: Iterable[Finding]) -> Row:
-    """The row that all leaves of a certificate prove together."""
+def proven_row(types: str, findings: Iterable[Finding], together: Groups = ()) -> Row:
+    """The row that all leaves of a certificate prove; raises `Rejected` where `together` is not of curves."""
     own = [f for f in findings if types in f.types and f.high >= 0]
     if not own:
-        return Row(types, False, -1, 0, 0, 0)
+        return Row(types, False, -1, 0, 0)
     sure = [f for f in own if f.low >= 0 and len(f.types) == 1]
     if not sure:
         return Row(types, None)
@@ -85,8 +88,9 @@ def proven_row(types: str, findings: Iterable[Finding]) -> Row:
     # points that lie on a curve of the row are no components of their own
     curves = [f for f in own if f.components is not None and len(f.types) == 1]
     apart = [f.points for f in own if f not in curves and not any(c.holds(f) for c in curves)]
-    numbers = points, _sum([*apart, *(_pieces([f]) for f in curves)]), _sum([*apart, _pieces(curves)])
-    return Row(types, True, low if low == high else None, *numbers)
+    alone = {(f.line, k) for f in curves for k in range(len(f.components or ()))} - {*chain(*together)}
+    components = _sum([*apart, len(alone), *(_pieces(curves, own) for own in together)])
+    return Row(types, True, low if low == high else None, points, components, together)
 
 
 def _sum(numbers: Iterable[int | None]) -> int | None:
@@ -94,15 +98,19 @@ def _sum(numbers: Iterable[int | None]) -> int | None:
     return None if None in known else sum(k for k in known if k is not None)
 
 
-def _pieces(curves: Sequence[Finding]) -> int | None:
-    """How many connected components curves have together; None where it is not known which loops meet."""
-    piece = {(f.line, k): (f.line, k) for f in curves for k in range(len(f.components or ()))}
-    for one, two in combinations(curves, 2):
+def _pieces(curves: Sequence[Finding], own: Sequence[tuple[int, ...]]) -> int | None:
+    """How many connected components loops have together; None where it is not known which of them meet."""
+    piece = {loop: loop for loop in own}
+    known = {(f.line, k) for f in curves for k in range(len(f.components or ()))}
+    if not known.issuperset(own):
+        raise Rejected(f"claims: there are no curves of these types with the loops {str(own)[:80]}")
+    for one, two in combinations([f for f in curves if any(f.line == loop[0] for loop in own)], 2):
         if one.line not in two.joins and one.overlaps(two):
             return None
         for k, i in two.joins.get(one.line, ()):
-            old, new = piece[two.line, k], piece[one.line, i]
-            piece = {key: new if of == old else of for key, of in piece.items()}
+            if (two.line, k) in piece and (one.line, i) in piece:
+                old, new = piece[two.line, k], piece[one.line, i]
+                piece = {key: new if of == old else of for key, of in piece.items()}
     return len({*piece.values()})
 
 
@@ -117,16 +125,22 @@ def _claimed(entry: Any) -> Row:
     if not isinstance(entry, Mapping) or not isinstance(entry.get("types"), str):
         raise Rejected(f"claims: expected rows with types, got {str(entry)[:80]}")
     occurs = entry.get("occurs")
-    numbers = [entry.get(key) for key in ("dimension", "points", "components")]
+    dimension, points, components = numbers = [
+        entry.get(key) for key in ("dimension", "points", "components")
+    ]
     if occurs not in (True, False, None) or not all(k is None or type(k) is int for k in numbers):
         raise Rejected(f"claims: expected true or false, and numbers, got {str(entry)[:80]}")
-    return Row(entry["types"], occurs, *numbers)
+    groups = [listed({"together": own}, "together", list) for own in listed(entry, "together", list, [])]
+    together = tuple(tuple(map(tuple, own)) for own in groups)
+    loops = [*chain(*together)]
+    if any(type(k) is not int for k in chain(*loops)) or len({*loops}) < len(loops):
+        raise Rejected(f"claims: expected each loop once, [line, place], got {str(together)[:80]}")
+    return Row(entry["types"], occurs, dimension, points, components, together)
 
 
 def contradicted(claim: Row, proven: Row) -> bool:
     """Whether what is claimed of a row is proven to be wrong."""
-    pairs = _pairs(claim, proven)
-    return any(a is not None and b is not None and a != b for _, a, b in pairs)
+    return any(a is not None and b is not None and a != b for _, a, b in _pairs(claim, proven))
 
 
 def unproven(claim: Row, proven: Row) -> list[str]:
@@ -149,12 +163,5 @@ def _pairs(claim: Row, proven: Row) -> tuple[tuple[str, Any, Any], ...]:
         whether,
         ("dimension", claim.dimension, proven.dimension),
         ("number of points", claim.points, proven.points),
-        ("number of components", claim.components, _components(claim.components, proven)),
+        ("number of components", claim.components, proven.components),
     )
-
-
-def _components(claimed: int | None, proven: Row) -> int | None:
-    """The number that a claim is about: all curves by themselves, or together; None where it is between."""
-    least, most = proven.together, proven.components
-    between = claimed is not None and most is not None and (least or 0) < claimed < most
-    return least if claimed == least else None if between else most

@@ -86,7 +86,8 @@ def verify(path: str | Path) -> Verification:
     except Rejected as error:
         raise Rejected(f"line {number}: {error}") from None
     findings = proof.findings()
-    proven = tuple(proven_row(types, findings) for types in all_types(about))
+    together = {claim.types: claim.together for claim in claims}
+    proven = tuple(proven_row(types, findings, together.get(types, ())) for types in all_types(about))
     missing = tuple(_missing(claims, proven, proof))
     return Verification(header["name"], proven, claims, missing, proof.rules, data, tuple(findings))
 
@@ -173,12 +174,9 @@ def _leaf(at: RealSet, about: Statement, line: Mapping[str, Any], before: Sequen
 
 def all_types(about: Statement) -> list[str]:
     """The types that configurations of this mobility can have, but for none."""
-    found: dict[str, None] = {}
     # lowering all four defects by one keeps the types while delta, p > 1; |delta - p| <= n
     few, more = range(about.n + 2), range(2 * about.n + 2)
-    for delta, p, inputs, outputs in product(few, few, more, more):
-        if is_possible((delta, p, inputs, outputs), about.n):
-            found[types_of((delta, p, inputs, outputs))] = None
+    found = {types_of(d) for d in product(few, few, more, more) if is_possible(d, about.n)}
     return sorted(filter(None, found), key=lambda types: (len(types), types))
 
 

@@ -133,6 +133,8 @@ def _complex_point(at: RealSet) -> list[complex]:
     for _ in range(NEWTON_STEPS):
         values = numpy.array([complex(e.evaluate(list(x))) for e in equations])
         matrix = numpy.array([[complex(slope.evaluate(list(x))) for slope in row] for row in slopes])
+        if not (numpy.isfinite(values).all() and numpy.isfinite(matrix).all()):
+            raise Undecided("no complex point of a curve is found")
         x = x - numpy.linalg.lstsq(matrix, values, rcond=1e-9)[0]
     return [complex(value) for value in x]
 
@@ -301,6 +303,8 @@ class _Tracker:
             except numpy.linalg.LinAlgError:
                 raise Undecided("a curve is singular near an arc") from None
             x = x - step
+            if not numpy.isfinite(x).all():
+                raise Undecided("Newton's method leaves an arc of a curve")
             if numpy.abs(step).max() < EXACT:
                 break
         return x

@@ -59,14 +59,23 @@ class Hints:
     curves: bool = False
 
 
-def prove(about: Statement, hints: Hints, seconds: float = WHOLE) -> list[dict[str, Any]]:
-    """The lines of a proof; parts on which none is found in so much work are left open, with the reason."""
+@dataclass(frozen=True)
+class Proof:
+    """The lines of a proof, and its curves, whose components are counted."""
+
+    lines: list[dict[str, Any]]
+    curves: tuple[Finding, ...]
+
+
+def prove(about: Statement, hints: Hints, seconds: float = WHOLE) -> Proof:
+    """A proof; parts on which none is found in so much work are left open, with the reason."""
     prover = _Prover(Tree(about), hints)
     prover.attempted(lambda: prover.take_apart(prover.reduced(prover.tree.root), hints.loci), seconds)
     closed = {line["at"] for line in prover.tree.lines}
     why = "; ".join(dict.fromkeys(map(str, prover.failures)))
     left = [number for number in range(prover.tree.numbers + 1) if number not in closed]
-    return [*prover.tree.lines, *({"at": number, "rule": "open", "why": why} for number in left)]
+    lines = [*prover.tree.lines, *({"at": number, "rule": "open", "why": why} for number in left)]
+    return Proof(lines, tuple(prover.curves))
 
 
 @dataclass

@@ -7,18 +7,21 @@ from __future__ import annotations
 
 import gzip
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from singsym.certificates.checker.balls import is_off_zero
 from singsym.certificates.checker.sets import statement
+from singsym.certificates.checker.table import Finding
 from singsym.certificates.checker.verification import FORMAT
 from singsym.certificates.prover.proof import WHOLE, Hints, prove
-from singsym.classes.result import Classification, ClassResult
+from singsym.classes.result import Classification, ClassResult, Piece
 from singsym.classes.taxonomy.types import feasible_classes
 from singsym.conditions.conditions import Conditions, conditions
 from singsym.kinematics.velocity import VelocityEquation
-from singsym.polynomials import Polynomial
+from singsym.polynomials import Equations, Polynomial
 
 
 @dataclass(frozen=True)
@@ -46,11 +49,11 @@ def certificate(result: Classification, seconds: float = WHOLE) -> Certificate:
     """
     name = result.mechanism.name if result.mechanism else "given equations"
     possible = {c.types for c in feasible_classes(result.equation.n)}
-    claims = [_claim(c) for c in result.classes if c.types in possible]
     data = statement_data(result.equation)
     about = statement(data)
-    lines = prove(about, _hints(result, conditions(result.equation)), seconds)
-    return Certificate(({"format": FORMAT, "name": name, "claims": claims}, data, *lines))
+    proof = prove(about, _hints(result, conditions(result.equation)), seconds)
+    claims = [_claim(c, proof.curves) for c in result.classes if c.types in possible]
+    return Certificate(({"format": FORMAT, "name": name, "claims": claims}, data, *proof.lines))
 
 
 def statement_data(equation: VelocityEquation) -> dict[str, Any]:
@@ -71,13 +74,41 @@ def statement_data(equation: VelocityEquation) -> dict[str, Any]:
     }
 
 
-def _claim(found: ClassResult) -> dict[str, Any]:
-    """A row of the table, as far as it is decided."""
+def _claim(found: ClassResult, curves: Sequence[Finding]) -> dict[str, Any]:
+    """A row of the table, as far as it is decided; curves: those of the proof."""
     occurs = None if found.verdict.is_undecided else found.verdict.is_yes
     row: dict[str, Any] = {"types": found.singularity_class.name, "occurs": occurs}
     if occurs:
         row |= {"dimension": found.dimension, "points": found.points, "components": found.components}
+        if found.components is not None and (together := _together(found, curves)):
+            row["together"] = together
     return row
+
+
+def _together(found: ClassResult, curves: Sequence[Finding]) -> list[list[list[int]]]:
+    """The loops of curves that a table counts together: those of one stratum, or of one image of it.
+
+    Which these are is only seen in balls around points of them.
+    """
+    own = [curve for curve in curves if curve.types == {found.singularity_class.name}]
+    left = [[curve.line, k] for curve in own for k in range(len(curve.components or ()))]
+    by_line = {curve.line: curve for curve in own}
+    groups: list[list[list[int]]] = []
+    for piece in found.pieces if found.dimension == 1 else ():
+        groups.append([loop for loop in left if _is_along(by_line[loop[0]], loop[1], piece)])
+        left = [loop for loop in left if loop not in groups[-1]]
+    return [loops for loops in groups if len(loops) > 1]
+
+
+def _is_along(curve: Finding, place: int, piece: Piece) -> bool:
+    """Whether a loop of a curve seems to lie in a piece, closed up, and not in what the piece leaves out."""
+    points = [tube.start for tube in (curve.components or ())[place]]
+
+    def lies_in(equations: Equations) -> bool:
+        own = [e.value.project_to_context(curve.at.context) for e in equations]
+        return not any(is_off_zero(e, point) for e in own for point in points)
+
+    return lies_in(piece.basis) and not any(lies_in(group) for group in piece.exclusions)
 
 
 def _hints(result: Classification, found: Conditions) -> Hints:

@@ -54,8 +54,9 @@ class Counted:
 
 
 def count(task: CurveTask) -> Counted:
-    """The connected components of a real curve and of its images, each component once.
+    """The connected components of a real curve and of its images, each image by itself, each component once.
 
+    Curves of one image that meet are one component, those of two images that meet are two.
     What of it lies in the exclusions as a whole is left out; on the rest these are finitely many points, that
     are left in, but not where they are components by themselves.
     They are not counted where the complex zeros are no curve, as of x^2 + y^2 = 0 in space.

@@ -190,6 +190,10 @@ def _with_locus(
         if minor.is_constant:
             return premises.conclude(BlockRank(r, ()))
         minors[minor.squarefree_part()] = None
+    if not minors:
+        # none of those that were looked at is known not to vanish, but the one that the rank was seen by
+        minors[expanded(block.select(rows, columns)).squarefree_part()] = None
+        exact = False
     shortest = tuple(sorted(minors, key=lambda m: (_weight(m), str(m))))
     return premises.conclude(BlockRank(r, shortest, exact, highest))
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from singsym.classes.strata.block_rank import BlockRank, block_rank
+from singsym.classes.strata.block_rank import BlockRank, block_rank, union_of_loci
 from singsym.classes.strata.ground import Ground, NotEvident
 from singsym.classes.strata.patches import Patch
 from singsym.classes.strata.ranks import RankProblem, ranked, relevant
@@ -118,3 +118,27 @@ def test_matrices_left_out_cannot_change_the_types(n: int) -> None:
             grown = all(b >= a for a, b in zip(here, there, strict=True))
             if grown and all(getattr(here, f) == getattr(there, f) for f in watched):
                 assert here.types == there.types
+
+
+def test_minors_that_are_small_at_known_points_do_not_leave_no_locus() -> None:
+    """At x = y = 1 the first eight columns are zero, the others (z, 1), (1, z): rank 1 at z = 1, 2 at z = 0.
+
+    Only (1, 1, 0) is known, where all minors of the first eight with another column are zero: at (1, 1, 1) is
+    the rank lower none the less, and the locus has to hold this point.
+    """
+    space = Ring(("x", "y", "z"))
+    first, second, third = space.gens
+    powers = range(1, 5)
+    matrix = PolynomialMatrix.of(
+        space,
+        [
+            [*((first - 1) ** k for k in powers), *([0] * 4), third, 1],
+            [*([0] * 4), *((second - 1) ** k for k in powers), 1, third],
+        ],
+    )
+    where = Ground(Patch(space, {}, ()), ((1.0, 1.0, 0.0),))
+    certifier = where.certifier(RealSystem(space, ()), ())
+    found = block_rank(matrix, where, certifier, ((0, 1), (8, 9)), True).value
+    assert found.rank == 2
+    loci, _ = union_of_loci(found.minors, certifier)
+    assert any(all(p.evaluate((1.0, 1.0, 1.0)) == 0 for p in locus) for locus in loci)

@@ -49,11 +49,14 @@ def is_dimension_at_most(equations: Equations, nonzero: Sequence[Polynomial], di
     Of as many short equations as leave one dimension too many, the others cut out less: at almost all points
     of the core, with the dyads over it, they have no common zero.  False proves nothing.
 
+    >>> from singsym.polynomials import Ring
     >>> c, s, x, y = Ring(("c", "s", "x", "y")).gens
     >>> dyad_over_a_plane = ((x - c) ** 2 + (y - s) ** 2 - 4, (x - 3) ** 2 + y**2 - 4)
     >>> is_dimension_at_most((*dyad_over_a_plane, c * x * y**2 + s * x**2 - y), (), 1).value
     True
     """
+    if not equations:
+        return Known(False)
     ring, premises = equations[0].ring, Premises()
     shortest, most = sorted(equations, key=len), len(ring.names) - dimension - 1
     others = tuple(shortest[max(most, 0) :])

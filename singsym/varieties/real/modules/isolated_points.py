@@ -49,7 +49,7 @@ def tangencies(equations: Equations) -> Known[Equations] | None:
         if not points:
             return premises.conclude((equations[0].ring.one,))
         forms = [form.tangency for module in found.dyads if (form := dyad(module)) is not None]
-        touched = [p for p in map(own.convert, forms) if not any(map(_sign_of(p), points))]
+        touched = [p for p in map(own.convert, forms) if p and not any(map(_sign_of(p), points))]
         for point in points:
             premises.rest_on(point.premises.certainty)
         return premises.conclude(tuple(map(equations[0].ring.convert, touched)))
