@@ -17,6 +17,8 @@ _NUMBER = re.compile(r"\d+(/[1-9]\d*)?\Z")
 _POWER = re.compile(r"([A-Za-z_]\w*)(?:\^([1-9]\d{0,3}))?\Z")
 LONGEST = 2_000_000
 """A polynomial of more characters is refused."""
+LARGEST = 20_000
+"""A remainder with more terms on the way, or more binary digits in its first coefficient, is refused."""
 
 
 class Rejected(ValueError):
@@ -39,8 +41,7 @@ def rational(text: str) -> fmpq:
     body = text.removeprefix("-") if isinstance(text, str) else ""
     if not _NUMBER.match(body):
         raise Rejected(f"expected a rational as -3/2, got {text!r}")
-    p, _, q = body.partition("/")
-    value = fmpq(fmpz(p), fmpz(q or 1))
+    value = fmpq(*(fmpz(part or 1) for part in body.partition("/")[::2]))
     return -value if text.startswith("-") else value
 
 
@@ -92,13 +93,14 @@ def remainder(f: fmpq_mpoly, divisors: Iterable[fmpq_mpoly]) -> fmpq_mpoly:
     >>> remainder(x**2 * y, [x - y, y**2 - 1])
     y
     """
-    divisors = [d for d in divisors if d]
-    unchanged = 0
+    divisors, unchanged = [d for d in divisors if d], 0
     for divisor in cycle(divisors):
         quotient, rest = divmod(f, divisor)
         f, unchanged = (rest, 1) if quotient else (f, unchanged + 1)
         if not f or unchanged == len(divisors):
             break
+        if max(len(f), f.coefficient(0).p.bit_length()) > LARGEST:
+            raise Rejected("a remainder becomes too long")
     return f
 
 
@@ -119,7 +121,6 @@ def determinant(rows: Sequence[Sequence[fmpq_mpoly]], divisors: Sequence[fmpq_mp
 
     @cache
     def minor(columns: tuple[int, ...]) -> fmpq_mpoly:
-        """That of the last rows in these columns."""
         if not columns:
             return context.constant(1)
         row = rows[len(rows) - len(columns)]
