@@ -36,8 +36,8 @@ class Root:
         >>> a = Ring(("a",)).gens[0]
         >>> Root(a**2 - 2, Fraction(1), Fraction(2)).value
         sqrt(2)
-        >>> Root(a**3 - 2, Fraction(1), Fraction(2)).value
-        CRootOf(x**3 - 2, 0)
+        >>> Root(a**5 - a - 1, Fraction(1), Fraction(2)).value
+        CRootOf(x**5 - x - 1, 0)
         """
         if self.degree > _HIGHEST:
             return None

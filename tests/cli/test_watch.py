@@ -79,7 +79,7 @@ def test_lines_off_a_terminal(capsys: pytest.CaptureFixture[str]) -> None:
         "(4): BC perpendicular to slide P",
         "(5): AB parallel to slide P; or AC perpendicular to slide P",
         "strata, 0 of 2",
-        "real points, 0 of 5",
+        "real points, 0 of 6",
         "1 (RI, IO): occurs",
         "loci, 0 of 3",
     ]
