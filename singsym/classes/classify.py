@@ -26,7 +26,7 @@ from singsym.classes.configuration_space import configuration_space, smoothness
 from singsym.classes.findings import Told, tell_conditions
 from singsym.classes.realisation.alike import realise_all
 from singsym.classes.realisation.certified_configuration import Names
-from singsym.classes.realisation.curve_components import Counted, CurveTask, count
+from singsym.classes.realisation.curve_components import Counted, CurveTask, count, counted_in_one_way
 from singsym.classes.realisation.local_coordinates import local_coordinates
 from singsym.classes.realisation.looks import bounded_by, is_open, known_dimensions, merged
 from singsym.classes.realisation.realisation import Realised, RealTask
@@ -384,7 +384,7 @@ class _Work:
             )
             first, *others = parts[i]
             parts[i] = [replace(first, components=number), *(replace(p, components=0) for p in others)]
-        return [piece for part in parts for piece in part]
+        return counted_in_one_way([piece for part in parts for piece in part])
 
     def _beside(self, found: Found, curves: Sequence[Piece]) -> RealTask:
         """The points of a stratum that are on none of the curves of its class."""

@@ -5,9 +5,13 @@ Source: `varieties.real.curve` counts those of a curve; what belongs to other cl
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from itertools import combinations
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import chain, combinations
 
+from singsym.classes.result import Piece
+from singsym.classes.taxonomy.types import SingularityType
+from singsym.effort import patience
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Undecided, current
 from singsym.elimination.ideal import Ideal
@@ -17,6 +21,8 @@ from singsym.varieties.real.curves.parts import components_outside
 from singsym.varieties.real.curves.real_curve import real_curve
 from singsym.varieties.real.modules.curve_components import components_off
 from singsym.varieties.real.points.exact_point import RealPoint
+
+_CROSSING = "parts of one set may meet, and were counted apart"
 
 
 @dataclass(frozen=True)
@@ -74,6 +80,31 @@ def count(task: CurveTask) -> Counted:
             return Counted(tuple(numbers))
     except (NotACurve, Undecided) as reason:
         return Counted(None, str(reason), budget.remaining() == 0.0)
+
+
+def counted_in_one_way(pieces: Sequence[Piece]) -> list[Piece]:
+    """Pieces, of which those that are parts of one set keep their numbers where no two may meet.
+
+    A curve that crosses itself is one component, two that cross are two: in how many a set given by the same
+    polynomials was taken apart depends on what was found in time, and no number may.
+    """
+    sets: dict[tuple[SingularityType, Equations], list[int]] = {}
+    for i, piece in enumerate(pieces):
+        if piece.dimension == 1 and piece.components:
+            sets.setdefault((piece.defects.types, piece.path), []).append(i)
+    found = list(pieces)
+    for i, j in chain.from_iterable(combinations(own, 2) for own in sets.values()):
+        if not _are_apart(pieces[i].basis, pieces[j].basis):
+            for k in (i, j):
+                found[k] = replace(found[k], components=None, uncounted=_CROSSING, countable=True)
+    return found
+
+
+def _are_apart(one: Equations, other: Equations) -> bool:
+    """Whether two sets are shown to have no point in common, over C."""
+    with attempt("that two curves do not meet", patience.APART.work):
+        return Ideal(one[0].ring, (*one, *other)).is_unit().value
+    return False
 
 
 def _share_a_curve(one: Equations, other: Equations) -> bool:

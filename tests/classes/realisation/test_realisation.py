@@ -10,17 +10,19 @@ import pytest
 from singsym.classes.classify import classify
 from singsym.classes.realisation.alike import AlikeTask, realise_alike
 from singsym.classes.realisation.certified_configuration import Names
-from singsym.classes.realisation.curve_components import CurveTask, count
+from singsym.classes.realisation.curve_components import CurveTask, count, counted_in_one_way
 from singsym.classes.realisation.realisation import Realised, RealTask
+from singsym.classes.result import Piece
 from singsym.classes.strata.branches import Found
 from singsym.classes.strata.ranks import Stratum
 from singsym.classes.taxonomy.types import Defects
 from singsym.classes.taxonomy.types import SingularityType as T
 from singsym.effort.budget import Undecided
-from singsym.effort.verdict import Known
+from singsym.effort.verdict import Known, Verdict
 from singsym.elimination.ideal import Ideal
 from singsym.mechanism import load
-from singsym.polynomials import Ring
+from singsym.polynomials import Equations, Polynomial, Ring
+from singsym.varieties.real.dimension.extent import Extent
 from singsym.varieties.real.system import RealSystem
 
 
@@ -116,3 +118,17 @@ def test_a_real_curve_of_complex_surfaces_is_not_counted() -> None:
     counted = count(CurveTask(((x**2 + y**2,),), ((),)))
     assert counted.components is None
     assert "dimension 2" in counted.reason
+
+
+def test_two_circles_of_one_set_have_numbers_where_they_do_not_meet() -> None:
+    """Of radius 1 about (0, 0) and about (1, 0), nearer than 2: in one plane, in two, and of two sets."""
+    x, y, z = Ring(("x", "y", "z")).gens
+    first = Piece((), (x**2 + y**2 - 1, z), (), Defects(1, 0, 0, 0), Verdict.yes("proven"), Extent(1, 1))
+
+    def numbers(*basis: Polynomial, path: Equations = ()) -> list[int | None]:
+        one, other = (replace(first, components=1), replace(first, basis=basis, path=path, components=1))
+        return [piece.components for piece in counted_in_one_way([one, other])]
+
+    assert numbers((x - 1) ** 2 + y**2 - 1, z) == [None, None]
+    assert numbers((x - 1) ** 2 + y**2 - 1, z - 1) == [1, 1]
+    assert numbers((x - 1) ** 2 + y**2 - 1, z, path=(x,)) == [1, 1]
