@@ -102,7 +102,7 @@ def counted_in_one_way(pieces: Sequence[Piece]) -> list[Piece]:
 
 def _are_apart(one: Equations, other: Equations) -> bool:
     """Whether two sets are shown to have no point in common, over C."""
-    with attempt("that two curves do not meet", patience.APART.work):
+    with attempt("that two curves do not meet", patience.MEETING.work):
         return Ideal(one[0].ring, (*one, *other)).is_unit().value
     return False
 

@@ -9,14 +9,11 @@ from collections.abc import Callable
 
 from singsym.effort import patience
 from singsym.effort.attempts import attempt
-from singsym.effort.budget import current
 from singsym.effort.verdict import Known, Premises
 from singsym.polynomials import Equations, Polynomial
 from singsym.varieties.real.modules.assemblies import dyad
-from singsym.varieties.real.modules.coverings import coverings
 from singsym.varieties.real.modules.curve_point import CurvePoint
-from singsym.varieties.real.modules.module_points import points_of, without_given
-from singsym.varieties.real.modules.towers import towers
+from singsym.varieties.real.modules.module_points import curves_over_circle, without_given
 from singsym.varieties.splitting import used_ring
 
 
@@ -36,19 +33,16 @@ def tangencies(equations: Equations) -> Known[Equations] | None:
     left, _ = without_given(equations)
     if not left:
         return None
-    own = used_ring(left[0].ring, left)
-    found = next(towers(tuple(map(own.convert, left))), None)
-    if found is None:
-        return None
+    own, premises = used_ring(left[0].ring, left), Premises()
     with attempt("isolated points of a curve", patience.ASSEMBLIES.work):
-        premises = Premises()
-        curves = premises.take(coverings(found, points_of, current()))
-        if any(curve.arcs for curve in curves):
+        known = curves_over_circle(tuple(map(own.convert, left)))
+        if known is None or any(curve.arcs for curve in known.value):
             return None
+        curves = premises.take(known)
         points = [point for curve in curves for point in curve.points]
         if not points:
             return premises.conclude((equations[0].ring.one,))
-        forms = [form.tangency for module in found.dyads if (form := dyad(module)) is not None]
+        forms = [form.tangency for module in curves[0].dyads if (form := dyad(module)) is not None]
         touched = [p for p in map(own.convert, forms) if p and not any(map(_sign_of(p), points))]
         for point in points:
             premises.rest_on(point.premises.certainty)

@@ -24,7 +24,7 @@ from singsym.polynomials import Equations, Polynomial, Ring
 from singsym.polynomials.block_form import Module, SolvingOrder, block_form, independent_parts
 from singsym.varieties.disjoint_parts import disjoint_parts
 from singsym.varieties.real.modules.assemblies import assemblies, dyad, is_simple, value_at
-from singsym.varieties.real.modules.coverings import coverings
+from singsym.varieties.real.modules.coverings import Covering, coverings
 from singsym.varieties.real.modules.lifted_curve import is_tower, points_on_tower
 from singsym.varieties.real.modules.towers import towers
 from singsym.varieties.real.points.boxed_point import BoxPoint, box_around
@@ -93,13 +93,23 @@ def _has_no_assembly(equations: Equations) -> Verdict:
             found = module_points(equations)
             if not found.value:
                 return Verdict.yes(found.certainty, reason="modules of the equations have no common assembly")
-    over = next(towers(equations), None)
-    if over is not None:
-        with attempt("modules over a circle without an assembly", patience.ASSEMBLIES.work):
-            curves = coverings(over, points_of, current())
-            if not any(curve.points for curve in curves.value):
-                return Verdict.yes(curves.certainty, reason="modules over a circle have no common assembly")
+    with attempt("modules over a circle without an assembly", patience.ASSEMBLIES.work):
+        curves = curves_over_circle(equations)
+        if curves is not None and not any(curve.points for curve in curves.value):
+            return Verdict.yes(curves.certainty, reason="modules over a circle have no common assembly")
     return Verdict.undecided("modules do not show that there is no real point")
+
+
+def curves_over_circle(equations: Equations) -> Known[tuple[Covering, ...]] | None:
+    """All curves of equations that are a circle with dyads over it; None where they are not.
+
+    Raises `Undecided` as `coverings` does.
+    """
+    found = next(towers(equations), None)
+    if found is None:
+        return None
+    key = (equations[0].ring, equations)
+    return remember("curves over a circle", key, lambda: coverings(found, points_of, current()))
 
 
 def points_of(equations: Equations) -> Known[tuple[RealPoint, ...]] | Known[tuple[BoxPoint, ...]]:
