@@ -235,6 +235,7 @@ def _by_levels(
             system = _System(inner, (*base, *added), known, smallest, macaulay, outside)
             found += premises.take(_refine(system))
         pieces = list(premises.take(_all_in_ring(found, inner)))
+    report("decompose", f"{len(pieces)} pieces", len(steps), len(steps))
     return premises.conclude(pieces)
 
 

@@ -22,8 +22,8 @@ def test_stages_come_in_their_order_and_reach_their_ends() -> None:
     events: list[Event] = []
     classify(load("slider-crank"), cache=False, progress=events.append)
     stages = list(dict.fromkeys(e.stage for e in events if e.total))
-    assert stages[0] == "strata"
-    assert "real points" in stages
+    # conditions are decomposed before, where the process does not remember them from another test
+    assert [s for s in stages if s != "decompose"][:2] == ["strata", "real points"]
     for stage in stages:
         last = [e for e in events if e.stage == stage][-1]
         assert last.done == last.total
