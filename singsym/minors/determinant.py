@@ -11,6 +11,7 @@ from itertools import combinations
 
 from flint import fmpq, fmpq_mpoly, fmpz, fmpz_mpoly
 
+from singsym.effort.budget import current
 from singsym.minors.blocks import block_triangular
 from singsym.polynomials import Polynomial, PolynomialMatrix
 
@@ -65,6 +66,7 @@ def _expand(rows: Sequence[_Row], needed: Iterable[int], limit: int | None = Non
         following: dict[int, fmpz_mpoly] = {}
         previous: Iterable[tuple[int, fmpz_mpoly | None]] = level.items() if k else [(0, None)]
         for mask, minor in previous:
+            current().check("a determinant")
             for j, entry in row:
                 if mask >> j & 1 or (reached := mask | 1 << j) & must != must:
                     continue

@@ -7,6 +7,7 @@ import sympy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from singsym.effort.budget import Budget, BudgetExceeded
 from singsym.minors.blocks import block_triangular, diagonal_blocks
 from singsym.minors.determinant import block_determinants, determinant, maximal_minors, minors
 from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
@@ -121,3 +122,12 @@ def test_all_84_maximal_minors_of_a_sparse_6x9() -> None:
     full = at(matrix, point)
     for rows_, columns, minor in found[::13]:
         assert full.extract(list(rows_), list(columns)).det() == minor.evaluate(point)
+
+
+def test_a_determinant_ends_with_its_budget() -> None:
+    """A full 30 by 30 matrix of unknowns has 30! terms."""
+    names = tuple(f"x{i}_{j}" for i in range(30) for j in range(30))
+    ring = Ring(names)
+    matrix = PolynomialMatrix.of(ring, [ring.gens[30 * i : 30 * i + 30] for i in range(30)])
+    with Budget(work=0.1), pytest.raises(BudgetExceeded):
+        determinant(matrix)
