@@ -175,4 +175,4 @@ def _conditions(space: ConfigurationSpace) -> tuple[Equations, ...]:
 def _coprime(polynomial: Polynomial) -> Polynomial:
     """The positive multiple with coprime integer coefficients."""
     found = polynomial.primitive()
-    return found if not polynomial or polynomial.terms()[0][1] > 0 else -found
+    return found if not polynomial or polynomial.leading_term[1] > 0 else -found

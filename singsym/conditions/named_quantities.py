@@ -45,7 +45,7 @@ class GeometricName:
 
 def _ratio(a: Polynomial, b: Polynomial) -> fmpq:
     """The rational number that one polynomial is of another with the same primitive form."""
-    return a.terms()[0][1] / b.terms()[0][1]
+    return a.leading_term[1] / b.leading_term[1]
 
 
 @dataclass(frozen=True, eq=False)

@@ -34,7 +34,7 @@ class Basis:
 
     def leading_monomials(self) -> tuple[tuple[int, ...], ...]:
         """The exponents of the leading monomials."""
-        return tuple(p.terms()[0][0] for p in self.polynomials)
+        return tuple(p.leading_term[0] for p in self.polynomials)
 
     def reduce(self, polynomial: Polynomial) -> Polynomial:
         """The normal form up to a non-zero scalar, primitive."""
@@ -107,7 +107,7 @@ def _linear_part(ring: Ring, generators: list[Polynomial]) -> tuple[list[Polynom
         found = next((p for p in rest if p.total_degree == 1), None)
         if found is None:
             return linear, rest
-        exponents, c = found.terms()[0]
+        exponents, c = found.leading_term
         i = exponents.index(1)
         value = ring.gens[i] - found / c
         images = (p.substitute({ring.names[i]: value}) if p.degrees[i] > 0 else p for p in rest)
@@ -122,7 +122,7 @@ def _sorted(ring: Ring, polynomials: Iterable[Polynomial]) -> tuple[Polynomial, 
     found = list(polynomials)
     if not found:
         return ()
-    leading = {p.terms()[0][0]: p for p in found}
+    leading = {p.leading_term[0]: p for p in found}
     order = [m for m, _ in ring.from_dict(dict.fromkeys(leading, 1)).terms()]
     return tuple(leading[m] for m in reversed(order))
 

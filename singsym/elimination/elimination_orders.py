@@ -81,7 +81,7 @@ def _eliminate_group(
             basis = premises.take(groebner_basis(ring, stretched, budget))
         except engines.EngineFailure:
             break
-        free = [p for p in basis.polynomials if not any(p.terms()[0][0][i] for i in positions)]
+        free = [p for p in basis.polynomials if not any(p.leading_term[0][i] for i in positions)]
         if all(not p.degrees[i] > 0 for p in free for i in positions):
             return premises.conclude(tuple(free))
         weight *= 4

@@ -82,7 +82,7 @@ class Signs:
         strict |= {
             p.variables[0]
             for p in self.positive
-            if len(p.variables) == 1 and p.total_degree == 1 and p.terms()[0][1] > 0 and p.constant <= 0
+            if len(p.variables) == 1 and p.total_degree == 1 and p.leading_term[1] > 0 and p.constant <= 0
         }
         return tuple(
             2 if name in strict or bound > 0 else int(bound >= 0)

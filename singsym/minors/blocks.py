@@ -152,7 +152,7 @@ def _combined(row: list[Polynomial], other: list[Polynomial]) -> list[Polynomial
     for a, b in zip(row, other, strict=True):
         if a.is_zero or b.is_zero or a.primitive() != b.primitive():
             continue
-        factor = a.terms()[0][1] / b.terms()[0][1]
+        factor = a.leading_term[1] / b.leading_term[1]
         if factor in tried:
             continue
         tried.add(factor)

@@ -56,7 +56,7 @@ def trigonometric_factors(polynomial: Polynomial, pairs: Sequence[Pair]) -> Fact
 def _degree(form: Polynomial, pair: Pair) -> int:
     """The degree of a form in the two variables of a pair together."""
     i, j = (form.ring.index(name) for name in pair)
-    exponents = form.terms()[0][0]
+    exponents = form.leading_term[0]
     return int(exponents[i] + exponents[j])
 
 

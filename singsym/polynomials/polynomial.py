@@ -9,6 +9,7 @@ import re
 from collections.abc import Collection, Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
+from math import factorial
 from typing import TYPE_CHECKING, Any, Union
 
 from flint import fmpq, fmpq_mpoly, fmpz, fmpz_mpoly
@@ -154,6 +155,11 @@ class Polynomial:
         """Pairs (exponents, coefficient), leading term first."""
         return list(self.value.terms())
 
+    @property
+    def leading_term(self) -> tuple[tuple[int, ...], fmpq]:
+        """The first of `terms`; IndexError for zero."""
+        return self.value.monomial(0), self.value.coefficient(0)
+
     def __len__(self) -> int:
         return len(self.value)
 
@@ -203,9 +209,10 @@ class Polynomial:
         >>> (x * y + 3 * x + y**2).coefficient("x", 1)
         y + 3
         """
-        i = self.ring.index(name)
-        terms = {(*m[:i], 0, *m[i + 1 :]): c for m, c in self.terms() if m[i] == power}
-        return self.ring.from_dict(terms)
+        i, value = self.ring.index(name), self.value
+        for _ in range(power):
+            value = value.derivative(i)
+        return Polynomial(self.ring, value.subs({name: 0}) / factorial(power))
 
     # -- operations ------------------------------------------------------------------------------
 

@@ -93,7 +93,7 @@ class ShortForms:
                 if c := rest.value[monomial]:
                     rest = rest - known * c
             if not rest.is_constant:
-                monomial, c = rest.terms()[0]
+                monomial, c = rest.leading_term
                 found.append((monomial, rest / c))
         return tuple(found)
 

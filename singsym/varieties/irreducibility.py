@@ -44,7 +44,7 @@ class Splitting:
 
 def leading_exponents(basis: Sequence[Polynomial]) -> list[Exponents]:
     """The exponents of the leading terms."""
-    return [p.terms()[0][0] for p in basis]
+    return [p.leading_term[0] for p in basis]
 
 
 def independent_variables(leads: Sequence[Exponents], count: int) -> tuple[int, ...]:
@@ -332,7 +332,7 @@ def _dependency(rows: Sequence[Polynomial]) -> list[fmpq] | None:
     scales, columns = [], [[0] * len(rows) for _ in monomials]
     for i, p in enumerate(rows):
         whole = p.integer().to_dict() if p else {}
-        scales.append(fmpq(whole[p.terms()[0][0]]) / p.terms()[0][1] if p else fmpq(1))
+        scales.append(fmpq(whole[p.leading_term[0]]) / p.leading_term[1] if p else fmpq(1))
         for m, c in whole.items():
             columns[position[m]][i] = int(c)
     kernel, nullity = fmpz_mat(columns).nullspace()

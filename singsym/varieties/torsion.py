@@ -64,7 +64,7 @@ def presentation(ring: Ring, basis: Sequence[Polynomial], within: Sequence[Expon
 
     within: the exponents in the other variables of all standard monomials.
     """
-    leads = [p.terms()[0][0] for p in basis]
+    leads = [p.leading_term[0] for p in basis]
     heights: dict[Exponents, int] = {}
     for a in within:
         tops = [m[-1] for m in leads if all(i >= j for i, j in zip(a, m[:-1], strict=True))]
@@ -108,7 +108,7 @@ def off_free(ring: Ring, basis: Sequence[Polynomial], within: Sequence[Exponents
     v
     """
     size = len(within[0])
-    leads = [p.terms()[0][0] for p in basis]
+    leads = [p.leading_term[0] for p in basis]
     corners: dict[Exponents, Exponents] = {}
     for a in within:
         tops = [m[size:] for m in leads if all(i >= j for i, j in zip(a, m[:size], strict=True))]

@@ -44,7 +44,7 @@ def reflections(
             for j, entry in enumerate(row):
                 rows.update(_differences(entry))
                 if entry:
-                    entries.append((_odd(entry.terms()[0][0]), width + i, width + height + j))
+                    entries.append((_odd(entry.leading_term[0]), width + i, width + height + j))
         width += sum(matrix.shape)
     table = [[*row, *[0] * (width - len(names))] for row in rows]
     for odd, i, j in entries:

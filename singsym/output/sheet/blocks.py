@@ -202,7 +202,7 @@ def _ratio(block: PolynomialMatrix, other: PolynomialMatrix) -> fmpq | None:
     first = next(((a, b) for a, b in pairs if a and b), None)
     if first is None:
         return None
-    ratio: fmpq = first[0].terms()[0][1] / first[1].terms()[0][1]
+    ratio: fmpq = first[0].leading_term[1] / first[1].leading_term[1]
     return ratio if all(a == b * ratio for a, b in pairs) else None
 
 

@@ -102,9 +102,10 @@ def is_simple(module: Module) -> bool:
 def is_circle(p: Polynomial, names: Sequence[str]) -> bool:
     """Whether it is a x^2 + a y^2 plus terms of lower degree in two unknowns, with a rational a."""
     x, y = names
-    one, two = p.coefficient(x, 2), p.coefficient(y, 2)
-    mixed = p.coefficient(x, 1).coefficient(y, 1)
-    return p.degree(x) == p.degree(y) == 2 and one == two and one.is_constant and not mixed
+    if not p.degree(x) == p.degree(y) == 2:
+        return False
+    one = p.coefficient(x, 2)
+    return one.is_constant and one == p.coefficient(y, 2) and not p.coefficient(x, 1).coefficient(y, 1)
 
 
 def is_round(module: Module) -> bool:
