@@ -114,8 +114,8 @@ def examined(task: RealTask) -> tuple[Piece, CertifiedPoints]:
                     piece, points = _realised(piece, system, task)
             return _above(piece, points, system, task)
     except Undecided as reason:
-        verdict = piece.verdict if points else Verdict.undecided(str(reason))
-        return replace(piece, verdict=verdict, extent=replace(piece.extent, open=str(reason))), points
+        left = _left_open(piece, reason)
+        return replace(left, verdict=piece.verdict) if points else left, points
 
 
 def _above(
@@ -186,7 +186,20 @@ def images(piece: Piece, points: CertifiedPoints, task: RealTask) -> Realised:
 def _given(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, CertifiedPoints]:
     """A set given by equations, by its disjoint parts where it is seen to have some."""
     parts = [replace(system, equations=own) for own in disjoint_parts(system.equations)]
-    return in_parts([_given_in_one(piece, part, task) for part in parts])
+    return in_parts([_in_time(piece, part, task) for part in parts])
+
+
+def _in_time(piece: Piece, part: RealSystem, task: RealTask) -> tuple[Piece, CertifiedPoints]:
+    """A part; if it is not decided, what is known of the others stays."""
+    try:
+        return _given_in_one(piece, part, task)
+    except Undecided as reason:
+        return _left_open(piece, reason), ()
+
+
+def _left_open(piece: Piece, reason: Undecided) -> Piece:
+    extent = replace(piece.extent, open=str(reason))
+    return replace(piece, verdict=Verdict.undecided(str(reason)), extent=extent)
 
 
 def _given_in_one(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Piece, CertifiedPoints]:

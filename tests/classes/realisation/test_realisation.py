@@ -8,6 +8,7 @@ from math import isclose, pi
 import pytest
 
 from singsym.classes.classify import classify
+from singsym.classes.realisation import realisation
 from singsym.classes.realisation.alike import AlikeTask, realise_alike
 from singsym.classes.realisation.certified_configuration import Names
 from singsym.classes.realisation.curve_components import CurveTask, count, counted_in_one_way
@@ -64,6 +65,29 @@ def test_a_larger_part_of_a_set_is_found_in_a_second_look() -> None:
     both = Found((), Stratum((x * y, x * z), Defects(0, 0, 0, 0)))
     (piece,) = realise(RealTask(both, RealSystem(ring, ()), Names(), most=2, known=1, seen=True)).pieces
     assert (piece.dimension, piece.verdict.is_yes) == (2, True)
+
+
+def test_what_is_known_of_one_part_stays_where_another_is_left_open(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two points and two circles, x = 1 or x = 3; of the circles nothing is found out."""
+    ring = Ring(("x", "y", "z"))
+    x, y, z = ring.gens
+    whole = ((x - 1) * (x - 3), (x - 1) * z, y**2 + z**2 - 1)
+    circle = (x - 3, y**2 + z**2 - 1)
+    given = realisation.disjoint_parts
+    monkeypatch.setattr(
+        realisation, "disjoint_parts", lambda e: [(x - 1, z, y**2 - 1), circle] if e == whole else given(e)
+    )
+    monkeypatch.setattr(realisation, "numerical_codimension", never)
+    found = Found((), Stratum(whole, Defects(0, 0, 0, 0)))
+    (piece,) = realise(RealTask(found, RealSystem(ring, ()), Names(), most=2)).pieces
+    assert piece.verdict.is_yes
+    assert (piece.extent.at_least, piece.extent.at_most, piece.dimension) == (0, 2, None)
+    assert piece.extent.open == "not in time"
+
+
+def never(*_: object) -> None:
+    """What is never known in time."""
+    raise Undecided("not in time")
 
 
 def test_a_set_within_its_border_alone() -> None:
