@@ -13,6 +13,7 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from singsym.classes.gathering import gathered
 from singsym.classes.taxonomy.types import Defects, SingularityClass, SingularityType
 from singsym.conditions.named_lengths import NamedLengths, named_lengths, values_text
 from singsym.effort.verdict import Verdict
@@ -213,13 +214,12 @@ class Classification:
 
     def open_questions(self) -> Iterator[tuple[str, str]]:
         """What is not decided, each with the reason."""
-        several = len(self.configuration_space) > 1
         if not self.configuration_space and any(c.verdict.is_undecided for c in self.classes):
             yield "the configuration space", "no piece of it is known"
         for number, piece in enumerate(self.configuration_space, 1):
             if piece.dimension is None:
-                which = f"piece {number} of the configuration space" if several else "the configuration space"
-                yield f"dimension of {which}", piece.extent.open
+                which = f", piece {number}" if len(self.configuration_space) > 1 else ""
+                yield f"dimension of the configuration space{which}", piece.extent.open
         for what, found in self._counted():
             yield from _open(what, found)
 
@@ -374,23 +374,6 @@ def _remarks(found: Locus | ClassResult) -> Iterator[str]:
             found.verdict.reason if isinstance(found, ClassResult) else found.extent.resting,
         )
         yield from filter(None, said)
-
-
-def gathered(pairs: Iterable[tuple[str, str]]) -> tuple[tuple[str, str], ...]:
-    """Those with the same second part together, and the numbers of what is called alike.
-
-    >>> gathered([("class 1", "no time"), ("class 2", "no memory"), ("class 3", "no time")])
-    (('class 1, 3', 'no time'), ('class 2', 'no memory'))
-    """
-    by_reason: dict[str, dict[str, list[str]]] = {}
-    for what, reason in pairs:
-        name, _, number = what.rpartition(" ")
-        key, entry = (name, number) if number.isdecimal() else (what, "")
-        by_reason.setdefault(reason, {}).setdefault(key, []).append(entry)
-    return tuple(
-        ("; ".join(f"{name} {', '.join(numbers)}".strip() for name, numbers in named.items()), reason)
-        for reason, named in by_reason.items()
-    )
 
 
 def counts(found: Locus | ClassResult) -> tuple[str, str]:

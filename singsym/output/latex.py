@@ -150,7 +150,7 @@ def classes_latex(table: Table, n: int) -> str:
 
 def classification_latex(result: Classification) -> str:
     """The mechanism, L, the reduction, the conditions, and the classes in the layout of Table 2."""
-    from singsym.classes.result import gathered
+    from singsym.classes.gathering import gathered
     from singsym.conditions.conditions import conditions
 
     found = conditions(result.equation, result.reduction)

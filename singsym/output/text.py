@@ -165,7 +165,7 @@ def types_text(types: Iterable[SingularityType]) -> str:
 
 def classification_page(result: Classification) -> Page:
     """What was found: at a glance, class by class with configurations, then loci and what is open."""
-    from singsym.classes.result import gathered
+    from singsym.classes.gathering import gathered
     from singsym.classes.summary import empty_text, shown_classes
 
     name = result.mechanism.name if result.mechanism is not None else "given equations"

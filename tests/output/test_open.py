@@ -169,7 +169,7 @@ def test_all_pieces_of_the_space(form: str) -> None:
     (whole,) = result.configuration_space
     found = replace(result, configuration_space=(whole, replace(whole, extent=OPEN, remark="the other one")))
     text = shown(found, form)
-    assert "dimension of piece 2 of the configuration space" in text
+    assert "dimension of the configuration space, piece 2" in text
     if form in ("text", "latex", "report", "json"):
         assert "the other one" in text
 

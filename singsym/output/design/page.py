@@ -11,7 +11,7 @@ from typing import Any
 
 import sympy
 
-from singsym.classes.result import gathered
+from singsym.classes.gathering import gathered
 from singsym.classes.taxonomy.types import SingularityType, feasible_classes
 from singsym.designs.borders import BorderPart
 from singsym.designs.result import Cell, Design, Entry

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from html import escape
 from itertools import groupby
 
-from singsym.classes.result import Classification, ClassResult, gathered
+from singsym.classes.gathering import gathered
+from singsym.classes.result import Classification, ClassResult
 from singsym.classes.taxonomy.types import feasible_classes
 from singsym.mechanism.model import Mechanism
 from singsym.output.figures.style import Picture

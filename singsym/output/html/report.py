@@ -10,7 +10,8 @@ from html import escape
 from pathlib import Path
 
 from singsym.classes.configuration.null_motions import Motion
-from singsym.classes.result import Classification, ClassResult, Piece, gathered
+from singsym.classes.gathering import gathered
+from singsym.classes.result import Classification, ClassResult, Piece
 from singsym.classes.summary import empty_classes, known_by, shown_classes
 from singsym.classes.taxonomy.types import SingularityType
 from singsym.mechanism.model import JointRate, Mechanism, Space
