@@ -15,18 +15,19 @@ from singsym.effort.budget import Budget, Undecided
 from singsym.elimination.ideal import Ideal
 from singsym.elimination.linear_substitution import Substitution
 from singsym.elimination.memo import remember
-from singsym.polynomials import Equations, Polynomial
+from singsym.polynomials import Equations
 from singsym.polynomials.block_form import with_last_modules
 from singsym.varieties.disjoint_parts import disjoint_parts
 from singsym.varieties.real.curves.arithmetic import System
 from singsym.varieties.real.curves.real_curve import real_curve
 from singsym.varieties.real.modules.assemblies import is_round
-from singsym.varieties.real.modules.coverings import Covering, coverings
+from singsym.varieties.real.modules.coverings import Covering, coverings, vanishes
 from singsym.varieties.real.modules.curve_point import CurvePoint
 from singsym.varieties.real.modules.lifted_curve import LiftedCurve
 from singsym.varieties.real.modules.module_points import has_no_assembly, points_of, without_given
 from singsym.varieties.real.modules.towers import Tower, towers
 from singsym.varieties.real.points.boxed_point import BoxPoint
+from singsym.varieties.real.points.intervals import sign_on_box
 from singsym.varieties.splitting import used_ring
 
 
@@ -121,10 +122,12 @@ def _is_arc_in(middle: CurvePoint, group: Equations, equations: Equations) -> bo
     Lemma: the curve is in the zeros of the group or in those of its saturation by it, and an analytic arc
     that is in the first near a point off the second is there as a whole.
     """
-    others = tuple(p for p in group if not _vanishes(p, equations))
+    if any(map(middle.seen_sign, group)):
+        return False
+    others = tuple(p for p in group if not vanishes(p, equations).value)
     if not others:
         return True
-    if any(map(middle.seen_sign, others)) or any(map(middle.sign, others)):
+    if any(map(middle.sign, others)):
         return False
     ideal = Ideal(equations[0].ring, equations)
     if any(map(middle.sign, ideal.saturate(Ideal(ideal.ring, others)).value.generators)):
@@ -158,16 +161,11 @@ def _lies_in(point: BoxPoint, group: Equations, equations: Equations) -> bool:
 
     It does where all polynomials vanish on the curve, and not where the point is outside.
     """
-    others = [p for p in group if not _vanishes(p, equations)]
+    if any(sign_on_box(p, point.box) for p in group):
+        return False
+    others = [p for p in group if not vanishes(p, equations).value]
     if any(point.sign(p) for p in others):
         return False
     if others:
         raise Undecided("whether a component lies in an exclusion is not seen")
     return True
-
-
-def _vanishes(polynomial: Polynomial, equations: Equations) -> bool:
-    """Whether it is seen to be a combination of the equations in its variables."""
-    ring = used_ring(polynomial.ring, (polynomial,))
-    own = tuple(ring.convert(p) for p in equations if {*ring.names} >= {*p.variables})
-    return any(own) and Ideal(ring, own).contains(ring.convert(polynomial)).value

@@ -98,3 +98,18 @@ def test_as_many_components_as_when_traced(number: int) -> None:
     traced = real_curve(curve)
     with suppress(Undecided, ValueError):
         assert components_off(curve, (), Budget(20)) == traced.connected_components, f"SINGSYM_SEED={SEED}"
+
+
+def test_a_dyad_in_line_on_all_of_a_curve() -> None:
+    """(x, y) at 2 from the origin; a dyad of bars 1 and 3 from there to it is folded wherever it is, with its
+    elbow at -(x, y) / 2.  On the elbow a dyad of 2 and 2 to (2, 0), at least 1 and at most 3 from it: never
+    in line, it is above or below.  One of 1 and 1 stands over one arc of the circle, at whose ends it is
+    stretched, so that its sheets meet."""
+    ring = Ring(("x", "y", "a", "b", "u", "v"))
+    x, y, a, b, u, v = ring.gens
+    folded = (x**2 + y**2 - 4, a**2 + b**2 - 1, (a - x) ** 2 + (b - y) ** 2 - 9)
+    for length, components in ((2, 2), (1, 1)):
+        dyad = ((u - a) ** 2 + (v - b) ** 2 - length**2, (u - 2) ** 2 + v**2 - length**2)
+        assert components_off((*folded, *dyad), (), Budget()) == components
+    assert components_off((*folded, *dyad), ((2 * a + x, 2 * b + y),), Budget()) == 0
+    assert components_off((*folded, *dyad), ((2 * a - x,),), Budget()) == 1

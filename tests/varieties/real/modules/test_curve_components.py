@@ -29,6 +29,24 @@ def test_a_component_in_an_exclusion_does_not_count() -> None:
     assert components_off(four, ((small.gens[1] - 2,),), Budget()) == 2
 
 
+def test_no_algebra_where_balls_tell(monkeypatch: pytest.MonkeyPatch) -> None:
+    """For exclusions that are long polynomials the Groebner basis of all loops was asked, for half a minute.
+
+    x + 4 is positive on a four-bar whose coupler ends at 2 from (3, 0), and over an ellipse, which is traced,
+    where the dyad stands on two opposite points, at most 2 apart and never one: it is above or below."""
+
+    def asked(*_: object) -> None:
+        pytest.fail("algebra is asked")
+
+    monkeypatch.setattr("singsym.varieties.real.modules.curve_components.vanishes", asked)
+    small = Ring(("c", "s", "x", "y"))
+    c, s, x, y = small.gens
+    four = tuple(map(small.convert, FOUR_BAR))
+    assert components_off(four, ((c, x + 4),), Budget()) == 2
+    ellipse = (2 * c**2 + s**2 - 1, (x - c) ** 2 + (y - s) ** 2 - 4, (x + c) ** 2 + (y + s) ** 2 - 4)
+    assert components_off(ellipse, ((x + 4,),), Budget()) == 2
+
+
 def test_a_curve_without_dyads() -> None:
     with pytest.raises(Undecided, match="no dyads"):
         components_off((C**2 + S**2 - 1, X - C, Y - S, Z - C * S), (), Budget())
