@@ -93,7 +93,7 @@ class Covering:
         if everywhere.value:
             premises.take(everywhere)
             return self._touched(module, form, premises)
-        below = self._cut(discriminant, solve, premises)
+        below = self.cut(discriminant, solve, premises)
         ring = self.circle.whole.subring((*self.ring.names, *module.unknowns))
         equations = tuple(map(ring.convert, (*self.equations, *module.equations)))
         points, origins, number = list[CurvePoint](), set[int](), dict[tuple[int, int], int]()
@@ -124,7 +124,7 @@ class Covering:
         arcs = tuple(Arc((*arc.signs, 0), arc.ends) for arc in self.arcs)
         return replace(self, equations=equations, dyads=(*self.dyads, module), points=points, arcs=arcs)
 
-    def _cut(self, polynomial: Polynomial, solve: Solver, premises: Premises) -> Covering:
+    def cut(self, polynomial: Polynomial, solve: Solver, premises: Premises) -> Covering:
         """With all zeros of a polynomial among the points where arcs end."""
         system = (*self.equations, polynomial)
         cuts: dict[Arc, list[CurvePoint]] = {arc: [] for arc in self.arcs}
@@ -205,9 +205,12 @@ def _assembly(module: Module, sign: int) -> Callable[[Balls], Balls]:
     return values
 
 
-def coverings(found: Tower, solve: Solver, budget: Budget) -> Known[tuple[Covering, ...]]:
+def coverings(
+    found: Tower, solve: Solver, budget: Budget, mark: Polynomial | None = None
+) -> Known[tuple[Covering, ...]]:
     """The curves of a tower, one over each point of its foundation where its circle has real points.
 
+    mark: a polynomial with finitely many zeros on the circle, at which arcs are to end.
     Raises `Undecided` where a dyad turns freely over a point, a discriminant is zero on a whole sheet but not
     on all of the curve, or something is not seen.
 
@@ -231,6 +234,8 @@ def coverings(found: Tower, solve: Solver, budget: Budget) -> Known[tuple[Coveri
         curve = _circle_alone(circle)
         if curve is None:
             continue
+        if mark is not None:
+            curve = curve.cut(own.convert(mark), solve, premises)
         for module in found.dyads:
             curve = curve.lifted(module, solve, premises, budget)
         curves.append(curve)
@@ -246,3 +251,22 @@ def _circle_alone(circle: BaseCircle) -> Covering | None:
         if not square > 0:
             raise Undecided("whether a circle has real points is not seen")
     return Covering(circle, circle.equations, (), (circle.origin,), frozenset((0,)), (Arc((), (0, 0)),))
+
+
+def is_arc_in(middle: CurvePoint, group: Equations, equations: Equations) -> bool:
+    """Whether an arc lies in an exclusion, by a point inside of it; `Undecided` where this is not seen.
+
+    Lemma: the curve is in the zeros of the group or in those of its saturation by it, and an analytic arc
+    that is in the first near a point off the second is there as a whole.
+    """
+    if any(map(middle.seen_sign, group)):
+        return False
+    others = tuple(p for p in group if not vanishes(p, equations).value)
+    if not others:
+        return True
+    if any(map(middle.sign, others)):
+        return False
+    ideal = Ideal(equations[0].ring, equations)
+    if any(map(middle.sign, ideal.saturate(Ideal(ideal.ring, others)).value.generators)):
+        return True
+    raise Undecided("whether an arc of a curve lies in an exclusion is not seen")
