@@ -87,7 +87,8 @@ def _coverings(
     own = over.needed
     apart = [p for p in equations if p not in own]
     ring = used_ring(equations[0].ring, own)
-    tower = over if not apart else next(towers([ring.convert(p) for p in equations if p in own]))
+    others = towers([ring.convert(p) for p in equations if p in own])
+    tower = over if not apart else next(t for t in others if t.base == over.base)
     curves = coverings(tower, points_of, budget).value
     if not apart:
         return curves, (None,)

@@ -75,3 +75,17 @@ def test_a_part_that_is_no_curve_and_has_no_real_point_counts_for_nothing() -> N
     dyad = ((p - x) ** 2 + (q - y) ** 2 - 64, (p - 3) ** 2 + q**2 - 9)
     in_line = (x - 3) * v - y * (u - 3)
     assert components_off((*kite, *dyad, in_line), (), Budget(20)) == 2
+
+
+def test_what_a_circle_does_not_need_may_need_what_it_stands_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    """w = 2 or -2, a four-bar of 1, 3, 2 at a distance of w^2 - 1 = 3, z^2 = w + 1: two components for
+    each z, over w = 2 alone.  The curve is not traced."""
+
+    def traced(*_: object, **__: object) -> None:
+        pytest.fail("the curve is traced")
+
+    monkeypatch.setattr("singsym.varieties.real.modules.curve_components.real_curve", traced)
+    ring = Ring(("c", "s", "x", "y", "w", "z"))
+    c, s, x, y, w, z = ring.gens
+    four_bar = (c**2 + s**2 - 1, (x - c) ** 2 + (y - s) ** 2 - 9, (x - w**2 + 1) ** 2 + y**2 - 4)
+    assert components_off((*four_bar, w**2 - 4, z**2 - w - 1), (), Budget()) == 4
