@@ -98,7 +98,7 @@ class Covering:
         equations = tuple(map(ring.convert, (*self.equations, *module.equations)))
         points, origins, number = list[CurvePoint](), set[int](), dict[tuple[int, int], int]()
         for k, point in enumerate(below.points):
-            sign = point.sign(discriminant)
+            sign = _sign(point, discriminant)
             for label in () if sign < 0 else (0,) if sign == 0 else (1, -1):
                 number[k, label] = len(points)
                 if k in below.origins:
@@ -125,14 +125,19 @@ class Covering:
         return replace(self, equations=equations, dyads=(*self.dyads, module), points=points, arcs=arcs)
 
     def cut(self, polynomial: Polynomial, solve: Solver, premises: Premises) -> Covering:
-        """With all zeros of a polynomial among the points where arcs end."""
-        system = (*self.equations, polynomial)
+        """With all zeros of a polynomial among the points where arcs end, found factor by factor."""
         cuts: dict[Arc, list[CurvePoint]] = {arc: [] for arc in self.arcs}
         tangencies = [self.ring.convert(_form(module).tangency) for module in self.dyads]
-        for zero in premises.take(solve(system)):
-            point = CurvePoint.of(zero, system, premises)
-            if self.circle.holds(point) and (arc := self._arc_of(point, tangencies)) is not None:
-                cuts[arc].append(point)
+        earlier = list[Polynomial]()
+        for factor, _ in polynomial.factors():
+            system = (*self.equations, factor)
+            for zero in premises.take(solve(system)):
+                point = CurvePoint.of(zero, system, premises)
+                if not self.circle.holds(point) or not all(map(point.sign, earlier)):
+                    continue
+                if (arc := self._arc_of(point, tangencies)) is not None:
+                    cuts[arc].append(point)
+            earlier.append(factor)
         points, arcs = list(self.points), list[Arc]()
         for arc, inside in cuts.items():
             stops = [arc.ends[0]]
@@ -160,6 +165,8 @@ class Covering:
 
 def vanishes(polynomial: Polynomial, equations: Equations) -> Known[bool]:
     """Whether it is seen to be a combination of the equations in its variables."""
+    if polynomial.is_zero:
+        return Known(True)
     ring = used_ring(polynomial.ring, (polynomial,))
     own = _inside(ring, equations)
     return Ideal(ring, own).contains(ring.convert(polynomial)) if any(own) else Known(False)
@@ -173,6 +180,14 @@ def _has_no_zero(polynomials: Equations, equations: Equations) -> Known[bool]:
 
 def _inside(ring: Ring, equations: Equations) -> Equations:
     return tuple(ring.convert(p) for p in equations if {*ring.names} >= {*p.variables})
+
+
+def _sign(point: CurvePoint, polynomial: Polynomial) -> int:
+    """The sign at a point, by the factors, of which one may be an equation of the point."""
+    sign = 1 if polynomial.terms()[0][1] > 0 else -1
+    for factor, power in polynomial.factors():
+        sign *= point.sign(factor) if power % 2 else abs(point.sign(factor))
+    return sign
 
 
 def _form(module: Module) -> Dyad:

@@ -95,7 +95,7 @@ class _Part:
 
     def off(self, other: Equations) -> Polynomial:
         """One of the polynomials of another core that is not zero on all of this part."""
-        found = [p for p in self.inside(other) if p and not vanishes(p, self.equations).value]
+        found = [p for p in self.inside(other) if not vanishes(p, self.equations).value]
         if not found:
             raise Undecided("two curves that cross are not seen to be two")
         return min(found, key=lambda p: (len(p.variables), len(p)))
