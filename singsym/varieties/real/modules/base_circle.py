@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from math import cos, sin
@@ -40,6 +40,7 @@ class BaseCircle:
     standing: EnclosedPoint | None
     others: tuple[EnclosedPoint, ...]
     premises: Premises
+    _shapes: dict[int, tuple[arb, arb, arb]] = field(default_factory=dict)
 
     @property
     def ring(self) -> Ring:
@@ -52,10 +53,13 @@ class BaseCircle:
 
     def shape(self, bits: int) -> tuple[arb, arb, arb]:
         """Centre and square of the radius."""
-        circle, (x, y), known = self.equations[-1], self.base, self.known(bits)
-        parts = (circle.coefficient(x, i).coefficient(y, j) for i, j in ((2, 0), (1, 0), (0, 1), (0, 0)))
-        a, b, c, d = (value_at(p, known) for p in parts)
-        return -b / (2 * a), -c / (2 * a), (b * b + c * c) / (4 * a * a) - d / a
+        if bits not in self._shapes:
+            circle, (x, y), known = self.equations[-1], self.base, self.known(bits)
+            parts = (circle.coefficient(x, i).coefficient(y, j) for i, j in ((2, 0), (1, 0), (0, 1), (0, 0)))
+            with at_precision(bits + 64):
+                a, b, c, d = (value_at(p, known) for p in parts)
+                self._shapes[bits] = -b / (2 * a), -c / (2 * a), (b * b + c * c) / (4 * a * a) - d / a
+        return self._shapes[bits]
 
     def holds(self, point: CurvePoint) -> bool:
         """Whether a point is over this circle, and not over one of the others."""

@@ -5,6 +5,7 @@ Lemma: over an arc of a curve on which a dyad's discriminant is not zero stand t
 the tangency, or none.  At an end of the arc each sheet has one limit: the assembly with the same sign, and
 where the discriminant is zero the only one.  Its line is one there: where the discriminant is positive, as
 that is a form of second degree in the line's coefficients, and where it is zero by the balls of the point.
+Where the discriminant is zero on all of a curve, and the line always one, there is one sheet.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from flint import arb
 
 from singsym.effort.budget import Budget, Undecided
 from singsym.effort.verdict import Known, Premises
+from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Equations, Polynomial, Ring
 from singsym.polynomials.block_form import Module
 from singsym.varieties.real.modules.assemblies import Dyad, assemblies, dyad, value_at
@@ -25,6 +27,7 @@ from singsym.varieties.real.modules.curve_point import BITS, Balls, CurvePoint
 from singsym.varieties.real.modules.towers import Tower
 from singsym.varieties.real.points.enclosed_point import EnclosedPoint
 from singsym.varieties.real.points.intervals import at_precision
+from singsym.varieties.splitting import used_ring
 
 Solver = Callable[[Equations], Known[tuple[EnclosedPoint, ...]]]
 """Finds all real points of finitely many."""
@@ -86,18 +89,21 @@ class Covering:
         if form.pivot is not None and not form.pivot.is_constant:
             raise Undecided("two circles of a dyad may be one at a point of a curve")
         discriminant = self.ring.convert(form.discriminant)
-        below = self._cut(discriminant, solve, premises)
+        everywhere = vanishes(discriminant, self.equations)
+        if everywhere.value:
+            premises.take(everywhere)
+            return self._touched(module, form, premises)
+        below = self.cut(discriminant, solve, premises)
         ring = self.circle.whole.subring((*self.ring.names, *module.unknowns))
         equations = tuple(map(ring.convert, (*self.equations, *module.equations)))
         points, origins, number = list[CurvePoint](), set[int](), dict[tuple[int, int], int]()
         for k, point in enumerate(below.points):
-            sign = point.sign(discriminant)
+            sign = _sign(point, discriminant)
             for label in () if sign < 0 else (0,) if sign == 0 else (1, -1):
-                values = form.touching if label == 0 else _assembly(module, label)
                 number[k, label] = len(points)
                 if k in below.origins:
                     origins.add(len(points))
-                points.append(point.over(module, ring, values).located())
+                points.append(point.over(module, ring, _assembly(module, label)).located())
         arcs = [
             Arc((*arc.signs, label), (_limit(number, arc.ends[0], label), _limit(number, arc.ends[1], label)))
             for arc in below.arcs
@@ -107,15 +113,31 @@ class Covering:
         dyads = (*self.dyads, module)
         return Covering(self.circle, equations, dyads, tuple(points), frozenset(origins), tuple(arcs))
 
-    def _cut(self, polynomial: Polynomial, solve: Solver, premises: Premises) -> Covering:
-        """With all zeros of a polynomial among the points where arcs end."""
-        system = (*self.equations, polynomial)
+    def _touched(self, module: Module, form: Dyad, premises: Premises) -> Covering:
+        """The covering by a dyad that is in line everywhere: one sheet, where its line touches its conic."""
+        if not premises.take(_has_no_zero(tuple(form.line.values()), self.equations)):
+            raise Undecided("a dyad that is in line on all of a curve may turn freely")
+        ring = self.circle.whole.subring((*self.ring.names, *module.unknowns))
+        linear = replace(module, equations=(form.line_equation, form.tangency))
+        equations = tuple(map(ring.convert, (*self.equations, *linear.equations)))
+        points = tuple(point.over(linear, ring, form.touching).located() for point in self.points)
+        arcs = tuple(Arc((*arc.signs, 0), arc.ends) for arc in self.arcs)
+        return replace(self, equations=equations, dyads=(*self.dyads, module), points=points, arcs=arcs)
+
+    def cut(self, polynomial: Polynomial, solve: Solver, premises: Premises) -> Covering:
+        """With all zeros of a polynomial among the points where arcs end, found factor by factor."""
         cuts: dict[Arc, list[CurvePoint]] = {arc: [] for arc in self.arcs}
         tangencies = [self.ring.convert(_form(module).tangency) for module in self.dyads]
-        for zero in premises.take(solve(system)):
-            point = CurvePoint.of(zero, system, premises)
-            if self.circle.holds(point) and (arc := self._arc_of(point, tangencies)) is not None:
-                cuts[arc].append(point)
+        earlier = list[Polynomial]()
+        for factor, _ in polynomial.factors():
+            system = (*self.equations, factor)
+            for zero in premises.take(solve(system)):
+                point = CurvePoint.of(zero, system, premises)
+                if not self.circle.holds(point) or not all(map(point.sign, earlier)):
+                    continue
+                if (arc := self._arc_of(point, tangencies)) is not None:
+                    cuts[arc].append(point)
+            earlier.append(factor)
         points, arcs = list(self.points), list[Arc]()
         for arc, inside in cuts.items():
             stops = [arc.ends[0]]
@@ -129,15 +151,43 @@ class Covering:
     def _arc_of(self, point: CurvePoint, tangencies: Sequence[Polynomial]) -> Arc | None:
         """The arc that a point is inside of; none where it is an end of some."""
         signs = tuple(map(point.sign, tangencies))
-        if 0 in signs:
+        sheet = [arc for arc in self.arcs if arc.signs == signs]
+        if 0 in signs and not sheet:
             return None
         for bits in BITS:
             turn = self.circle.turn(point, bits)
-            for arc in self.arcs:
+            for arc in sheet:
                 start, end = self._span(arc, bits)
-                if arc.signs == signs and start < turn < end:
+                if start < turn < end:
                     return arc
         raise Undecided("on which arc of a curve a point is, is not seen")
+
+
+def vanishes(polynomial: Polynomial, equations: Equations) -> Known[bool]:
+    """Whether it is seen to be a combination of the equations in its variables."""
+    if polynomial.is_zero:
+        return Known(True)
+    ring = used_ring(polynomial.ring, (polynomial,))
+    own = _inside(ring, equations)
+    return Ideal(ring, own).contains(ring.convert(polynomial)) if any(own) else Known(False)
+
+
+def _has_no_zero(polynomials: Equations, equations: Equations) -> Known[bool]:
+    """Whether they are seen to have no common zero on that of the equations in their variables."""
+    ring = used_ring(polynomials[0].ring, polynomials)
+    return Ideal(ring, (*map(ring.convert, polynomials), *_inside(ring, equations))).is_unit()
+
+
+def _inside(ring: Ring, equations: Equations) -> Equations:
+    return tuple(ring.convert(p) for p in equations if {*ring.names} >= {*p.variables})
+
+
+def _sign(point: CurvePoint, polynomial: Polynomial) -> int:
+    """The sign at a point, by the factors, of which one may be an equation of the point."""
+    sign = 1 if polynomial.terms()[0][1] > 0 else -1
+    for factor, power in polynomial.factors():
+        sign *= point.sign(factor) if power % 2 else abs(point.sign(factor))
+    return sign
 
 
 def _form(module: Module) -> Dyad:
@@ -156,6 +206,8 @@ def _limit(number: Mapping[tuple[int, int], int], end: int, label: int) -> int:
 
 def _assembly(module: Module, sign: int) -> Callable[[Balls], Balls]:
     """The assembly of a dyad at which the tangency has this sign."""
+    if sign == 0:
+        return _form(module).touching
     tangency = _form(module).tangency
 
     def values(known: Balls) -> Balls:
@@ -168,11 +220,14 @@ def _assembly(module: Module, sign: int) -> Callable[[Balls], Balls]:
     return values
 
 
-def coverings(found: Tower, solve: Solver, budget: Budget) -> Known[tuple[Covering, ...]]:
+def coverings(
+    found: Tower, solve: Solver, budget: Budget, mark: Polynomial | None = None
+) -> Known[tuple[Covering, ...]]:
     """The curves of a tower, one over each point of its foundation where its circle has real points.
 
-    Raises `Undecided` where a dyad turns freely over a point, a discriminant is zero on a whole sheet, or
-    something is not seen.
+    mark: a polynomial with finitely many zeros on the circle, at which arcs are to end.
+    Raises `Undecided` where a dyad turns freely over a point, a discriminant is zero on a whole sheet but not
+    on all of the curve, or something is not seen.
 
     >>> from singsym.polynomials import Ring
     >>> from singsym.varieties.real.modules.towers import towers
@@ -194,6 +249,8 @@ def coverings(found: Tower, solve: Solver, budget: Budget) -> Known[tuple[Coveri
         curve = _circle_alone(circle)
         if curve is None:
             continue
+        if mark is not None:
+            curve = curve.cut(own.convert(mark), solve, premises)
         for module in found.dyads:
             curve = curve.lifted(module, solve, premises, budget)
         curves.append(curve)
@@ -209,3 +266,22 @@ def _circle_alone(circle: BaseCircle) -> Covering | None:
         if not square > 0:
             raise Undecided("whether a circle has real points is not seen")
     return Covering(circle, circle.equations, (), (circle.origin,), frozenset((0,)), (Arc((), (0, 0)),))
+
+
+def is_arc_in(middle: CurvePoint, group: Equations, equations: Equations) -> bool:
+    """Whether an arc lies in an exclusion, by a point inside of it; `Undecided` where this is not seen.
+
+    Lemma: the curve is in the zeros of the group or in those of its saturation by it, and an analytic arc
+    that is in the first near a point off the second is there as a whole.
+    """
+    if any(map(middle.seen_sign, group)):
+        return False
+    others = tuple(p for p in group if not vanishes(p, equations).value)
+    if not others:
+        return True
+    if any(map(middle.sign, others)):
+        return False
+    ideal = Ideal(equations[0].ring, equations)
+    if any(map(middle.sign, ideal.saturate(Ideal(ideal.ring, others)).value.generators)):
+        return True
+    raise Undecided("whether an arc of a curve lies in an exclusion is not seen")

@@ -12,21 +12,22 @@ import networkx as nx
 
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Budget, Undecided
-from singsym.elimination.ideal import Ideal
 from singsym.elimination.linear_substitution import Substitution
 from singsym.elimination.memo import remember
-from singsym.polynomials import Equations, Polynomial
+from singsym.polynomials import Equations
 from singsym.polynomials.block_form import with_last_modules
 from singsym.varieties.disjoint_parts import disjoint_parts
 from singsym.varieties.real.curves.arithmetic import System
 from singsym.varieties.real.curves.real_curve import real_curve
 from singsym.varieties.real.modules.assemblies import is_round
-from singsym.varieties.real.modules.coverings import Covering, coverings
+from singsym.varieties.real.modules.coverings import Covering, coverings, is_arc_in, vanishes
+from singsym.varieties.real.modules.crossing_curves import components_of_crossing, crossing_parts
 from singsym.varieties.real.modules.curve_point import CurvePoint
 from singsym.varieties.real.modules.lifted_curve import LiftedCurve
 from singsym.varieties.real.modules.module_points import has_no_assembly, points_of, without_given
 from singsym.varieties.real.modules.towers import Tower, towers
 from singsym.varieties.real.points.boxed_point import BoxPoint
+from singsym.varieties.real.points.intervals import sign_on_box
 from singsym.varieties.splitting import used_ring
 
 
@@ -47,10 +48,13 @@ def components_off(equations: Equations, exclusions: Sequence[Equations], budget
         there = [part for part in parts if not _is_no_curve(part)]
         return sum(components_off(part, exclusions, budget) for part in there)
     left, given = without_given(equations)
-    if left and (over := next(towers(left), None)) is not None:
+    groups = [_with_given(group, given, left) for group in exclusions] if left else []
+    for over in towers(left):
         with attempt("the components of a curve of dyads over circles", share=1 / 2):
-            groups = [_with_given(group, given, left) for group in exclusions]
             return _over_circles(over, left, groups, budget)
+    for over in towers(left):
+        with attempt("the components of curves of dyads that cross", share=1 / 2):
+            return components_of_crossing(crossing_parts(over), groups, budget)
     key = (equations[0].ring, frozenset(p.primitive() for p in equations))
     points = remember("components by modules", key, lambda: _points(equations, budget), budget)
     return sum(not any(_lies_in(p, group, equations) for group in exclusions) for p in points)
@@ -83,7 +87,8 @@ def _coverings(
     own = over.needed
     apart = [p for p in equations if p not in own]
     ring = used_ring(equations[0].ring, own)
-    tower = over if not apart else next(towers([ring.convert(p) for p in equations if p in own]))
+    others = towers([ring.convert(p) for p in equations if p in own])
+    tower = over if not apart else next(t for t in others if t.base == over.base)
     curves = coverings(tower, points_of, budget).value
     if not apart:
         return curves, (None,)
@@ -107,29 +112,12 @@ def _components(
     graph = nx.Graph()
     for arc in curve.arcs:
         middle = whole(curve.middle(arc))
-        if not any(_is_arc_in(middle, group, equations) for group in exclusions):
+        if not any(is_arc_in(middle, group, equations) for group in exclusions):
             graph.add_edge(*arc.ends)
     ends = {k for arc in curve.arcs for k in arc.ends}
     alone = (whole(point) for k, point in enumerate(curve.points) if k not in ends)
     kept = sum(not any(all(p.sign(q) == 0 for q in group) for group in exclusions) for p in alone)
     return int(nx.number_connected_components(graph)) + kept
-
-
-def _is_arc_in(middle: CurvePoint, group: Equations, equations: Equations) -> bool:
-    """Whether an arc lies in an exclusion, by a point inside of it; `Undecided` where this is not seen.
-
-    Lemma: the curve is in the zeros of the group or in those of its saturation by it, and an analytic arc
-    that is in the first near a point off the second is there as a whole.
-    """
-    others = tuple(p for p in group if not _vanishes(p, equations))
-    if not others:
-        return True
-    if any(map(middle.seen_sign, others)) or any(map(middle.sign, others)):
-        return False
-    ideal = Ideal(equations[0].ring, equations)
-    if any(map(middle.sign, ideal.saturate(Ideal(ideal.ring, others)).value.generators)):
-        return True
-    raise Undecided("whether an arc of a curve lies in an exclusion is not seen")
 
 
 def _points(equations: Equations, budget: Budget) -> tuple[BoxPoint, ...]:
@@ -158,16 +146,11 @@ def _lies_in(point: BoxPoint, group: Equations, equations: Equations) -> bool:
 
     It does where all polynomials vanish on the curve, and not where the point is outside.
     """
-    others = [p for p in group if not _vanishes(p, equations)]
+    if any(sign_on_box(p, point.box) for p in group):
+        return False
+    others = [p for p in group if not vanishes(p, equations).value]
     if any(point.sign(p) for p in others):
         return False
     if others:
         raise Undecided("whether a component lies in an exclusion is not seen")
     return True
-
-
-def _vanishes(polynomial: Polynomial, equations: Equations) -> bool:
-    """Whether it is seen to be a combination of the equations in its variables."""
-    ring = used_ring(polynomial.ring, (polynomial,))
-    own = tuple(ring.convert(p) for p in equations if {*ring.names} >= {*p.variables})
-    return any(own) and Ideal(ring, own).contains(ring.convert(polynomial)).value

@@ -27,6 +27,7 @@ from singsym.varieties.real.modules.assemblies import assemblies, dyad, is_simpl
 from singsym.varieties.real.modules.coverings import Covering, coverings
 from singsym.varieties.real.modules.lifted_curve import is_tower, points_on_tower
 from singsym.varieties.real.modules.towers import towers
+from singsym.varieties.real.modules.triads import triad
 from singsym.varieties.real.points.boxed_point import BoxPoint, box_around
 from singsym.varieties.real.points.exact_point import RealPoint
 from singsym.varieties.real.points.finite_sets import real_points
@@ -35,6 +36,9 @@ from singsym.varieties.splitting import used_ring
 
 PRECISIONS = (256, 1024)
 """Bits of the balls of a first module, tried in turn where something is not seen."""
+
+FEW_SOLUTIONS = 100
+"""Where the bound of Bezout is larger simple modules are solved in balls first."""
 
 MOST_SOLUTIONS = 1000
 """A module by itself with a larger bound of Bezout is not solved by algebra; it may be a tower."""
@@ -114,7 +118,11 @@ def curves_over_circle(equations: Equations) -> Known[tuple[Covering, ...]] | No
 
 def points_of(equations: Equations) -> Known[tuple[RealPoint, ...]] | Known[tuple[BoxPoint, ...]]:
     """All real points of finitely many: by algebra where they are few, so that they may be multiple."""
-    if _bezout(equations) <= MOST_SOLUTIONS:
+    many = _bezout(equations)
+    if many > FEW_SOLUTIONS and all(map(_is_simple, _in_order(equations[0].ring, equations).modules)):
+        with attempt("a finite set by modules", share=1 / 2):
+            return module_points(equations)
+    if many <= MOST_SOLUTIONS:
         with attempt("a finite set by algebra", patience.FIRST_MODULE.work):
             return _exactly(equations)
     return module_points(equations)
@@ -187,7 +195,15 @@ def _in_order(ring: Ring, equations: Equations) -> SolvingOrder:
 
 
 def _of_modules(equations: Equations) -> Known[tuple[BoxPoint, ...]]:
-    solving = _Solving(equations[0].ring, _in_order(equations[0].ring, equations))
+    ring = equations[0].ring
+    form = _in_order(ring, equations)
+    if any(triad(m) is not None for m in form.modules):
+        with attempt("points by modules, triads in balls", share=1 / 2):
+            return _in_balls(_Solving(ring, form, triads=True))
+    return _in_balls(_Solving(ring, form))
+
+
+def _in_balls(solving: _Solving) -> Known[tuple[BoxPoint, ...]]:
     failure = Undecided("no precision was tried")
     for bits in PRECISIONS:
         try:
@@ -224,11 +240,13 @@ class _Step:
 class _Solving:
     """A square system under way.
 
+    triads: whether these are solved in balls as well; else as any hard module.
     solved: the points of steps that need nothing; premises: what all this rests on.
     """
 
     ring: Ring
     form: SolvingOrder
+    triads: bool = False
     solved: dict[_Step, tuple[BoxPoint, ...]] = field(default_factory=dict)
     premises: Premises = field(default_factory=Premises)
 
@@ -242,7 +260,7 @@ class _Solving:
                 loose |= set(module.unknowns)
                 continue
             alone = constants.issuperset(module.parents) and dyad(module) is None
-            if alone or is_simple(module):
+            if alone or (_is_simple(module) if self.triads else is_simple(module)):
                 steps.append(_Step((module,), alone))
                 continue
             group = _Step((*self.form.ancestors(module), module), True)
@@ -300,7 +318,9 @@ class _Solving:
             touching = replace(known, zeros=(*known.zeros, *module.equations))
             yield touching.plus(found.touching(known.values), (found.line_equation, found.tangency))
             return
-        for values in assemblies(module, known.values):
+        three = triad(module)
+        solutions = assemblies(module, known.values) if three is None else three.solutions(known.values)
+        for values in solutions:
             yield known.plus(values, module.equations)
 
     def _is_zero(self, p: Polynomial, known: _Partial) -> bool:
@@ -344,6 +364,11 @@ class _Partial:
     def certified(self) -> BoxPoint:
         """The whole point in a box of its own."""
         return replace(box_around(self.equations, self.values), zeros=self.zeros)
+
+
+def _is_simple(module: Module) -> bool:
+    """Whether a module is solved in balls, if no two of its solutions are one."""
+    return is_simple(module) or triad(module) is not None
 
 
 def _may_vanish(p: Polynomial, known: Mapping[str, arb]) -> bool:

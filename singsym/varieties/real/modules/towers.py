@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from singsym.polynomials import Equations, Polynomial, Ring
-from singsym.polynomials.block_form import Module, SolvingOrder, block_form
+from singsym.polynomials.block_form import Module, block_form, independent_parts
 from singsym.varieties.real.modules.assemblies import is_circle, is_round
 
 
@@ -40,10 +40,12 @@ class Tower:
 
     @property
     def needed(self) -> Equations:
-        """Its equations without those of the foundation that neither the circle nor a dyad needs."""
-        names = {*self.circle.variables, *(name for m in self.dyads for name in (*m.unknowns, *m.parents))}
-        form = SolvingOrder((*self.foundation, *self.dyads), (), ())
-        return (self.circle, *(p for m in form.determining(names) for p in m.equations))
+        """Its equations without those that have only fixed numbers in common with the others."""
+        constants = {c.name for c in self.circle.ring.constants}
+        fixed = [p for m in self.foundation if constants.issuperset(m.unknowns) for p in m.equations]
+        modules = (*self.foundation, *self.dyads)
+        parts = independent_parts((self.circle, *(p for m in modules for p in m.equations)))
+        return tuple(dict.fromkeys((*parts[0], *fixed)))
 
 
 def towers(equations: Sequence[Polynomial]) -> Iterator[Tower]:

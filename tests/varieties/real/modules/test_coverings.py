@@ -8,12 +8,15 @@ from functools import partial
 import pytest
 
 from singsym.effort.budget import Budget, Undecided
-from singsym.polynomials import Ring
+from singsym.effort.verdict import Known
+from singsym.polynomials import Equations, Ring
 from singsym.varieties.real.curves.real_curve import real_curve
 from singsym.varieties.real.modules.coverings import coverings
 from singsym.varieties.real.modules.curve_components import components_off
 from singsym.varieties.real.modules.module_points import points_of
 from singsym.varieties.real.modules.towers import towers
+from singsym.varieties.real.points.boxed_point import BoxPoint
+from singsym.varieties.real.points.exact_point import RealPoint
 from tests.laws.draws import SEED, draw
 from tests.varieties.real.modules.four_bars import RING, C, S, X, Y, four_bar
 
@@ -98,3 +101,31 @@ def test_as_many_components_as_when_traced(number: int) -> None:
     traced = real_curve(curve)
     with suppress(Undecided, ValueError):
         assert components_off(curve, (), Budget(20)) == traced.connected_components, f"SINGSYM_SEED={SEED}"
+
+
+def test_a_dyad_is_stretched_or_folded() -> None:
+    """Its discriminant is a product of two circles in its parents, each of which is asked for by itself."""
+    asked = list[int]()
+
+    def solve(equations: Equations) -> Known[tuple[RealPoint, ...]] | Known[tuple[BoxPoint, ...]]:
+        asked.append(max(p.total_degree for p in equations))
+        return points_of(equations)
+
+    (curve,) = coverings(next(towers(four_bar(1, 3, 2, 3))), solve, Budget()).value
+    assert asked == [2, 2]
+    assert len(curve.arcs) == 2
+
+
+def test_a_dyad_in_line_on_all_of_a_curve() -> None:
+    """(x, y) at 2 from the origin; a dyad of bars 1 and 3 from there to it is folded wherever it is, with its
+    elbow at -(x, y) / 2.  On the elbow a dyad of 2 and 2 to (2, 0), at least 1 and at most 3 from it: never
+    in line, it is above or below.  One of 1 and 1 stands over one arc of the circle, at whose ends it is
+    stretched, so that its sheets meet."""
+    ring = Ring(("x", "y", "a", "b", "u", "v"))
+    x, y, a, b, u, v = ring.gens
+    folded = (x**2 + y**2 - 4, a**2 + b**2 - 1, (a - x) ** 2 + (b - y) ** 2 - 9)
+    for length, components in ((2, 2), (1, 1)):
+        dyad = ((u - a) ** 2 + (v - b) ** 2 - length**2, (u - 2) ** 2 + v**2 - length**2)
+        assert components_off((*folded, *dyad), (), Budget()) == components
+    assert components_off((*folded, *dyad), ((2 * a + x, 2 * b + y),), Budget()) == 0
+    assert components_off((*folded, *dyad), ((2 * a - x,),), Budget()) == 1

@@ -29,6 +29,24 @@ def test_a_component_in_an_exclusion_does_not_count() -> None:
     assert components_off(four, ((small.gens[1] - 2,),), Budget()) == 2
 
 
+def test_no_algebra_where_balls_tell(monkeypatch: pytest.MonkeyPatch) -> None:
+    """For exclusions that are long polynomials the Groebner basis of all loops was asked, for half a minute.
+
+    x + 4 is positive on a four-bar whose coupler ends at 2 from (3, 0), and over an ellipse, which is traced,
+    where the dyad stands on two opposite points, at most 2 apart and never one: it is above or below."""
+
+    def asked(*_: object) -> None:
+        pytest.fail("algebra is asked")
+
+    monkeypatch.setattr("singsym.varieties.real.modules.curve_components.vanishes", asked)
+    small = Ring(("c", "s", "x", "y"))
+    c, s, x, y = small.gens
+    four = tuple(map(small.convert, FOUR_BAR))
+    assert components_off(four, ((c, x + 4),), Budget()) == 2
+    ellipse = (2 * c**2 + s**2 - 1, (x - c) ** 2 + (y - s) ** 2 - 4, (x + c) ** 2 + (y + s) ** 2 - 4)
+    assert components_off(ellipse, ((x + 4,),), Budget()) == 2
+
+
 def test_a_curve_without_dyads() -> None:
     with pytest.raises(Undecided, match="no dyads"):
         components_off((C**2 + S**2 - 1, X - C, Y - S, Z - C * S), (), Budget())
@@ -57,3 +75,17 @@ def test_a_part_that_is_no_curve_and_has_no_real_point_counts_for_nothing() -> N
     dyad = ((p - x) ** 2 + (q - y) ** 2 - 64, (p - 3) ** 2 + q**2 - 9)
     in_line = (x - 3) * v - y * (u - 3)
     assert components_off((*kite, *dyad, in_line), (), Budget(20)) == 2
+
+
+def test_what_a_circle_does_not_need_may_need_what_it_stands_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    """w = 2 or -2, a four-bar of 1, 3, 2 at a distance of w^2 - 1 = 3, z^2 = w + 1: two components for
+    each z, over w = 2 alone.  The curve is not traced."""
+
+    def traced(*_: object, **__: object) -> None:
+        pytest.fail("the curve is traced")
+
+    monkeypatch.setattr("singsym.varieties.real.modules.curve_components.real_curve", traced)
+    ring = Ring(("c", "s", "x", "y", "w", "z"))
+    c, s, x, y, w, z = ring.gens
+    four_bar = (c**2 + s**2 - 1, (x - c) ** 2 + (y - s) ** 2 - 9, (x - w**2 + 1) ** 2 + y**2 - 4)
+    assert components_off((*four_bar, w**2 - 4, z**2 - w - 1), (), Budget()) == 4
