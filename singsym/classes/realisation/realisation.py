@@ -38,6 +38,7 @@ from singsym.polynomials import Equations
 from singsym.polynomials.unit_circles import Pair
 from singsym.varieties.disjoint_parts import disjoint_parts
 from singsym.varieties.real.dimension.extent import EMPTY, Extent
+from singsym.varieties.real.dimension.fewer_equations import fewer_equations
 from singsym.varieties.real.dimension.hyperplane_cuts import Cut, dimension_by_cuts
 from singsym.varieties.real.dimension.independent_coordinates import are_dependent
 from singsym.varieties.real.dimension.real_dimension import (
@@ -303,16 +304,32 @@ def _charted(system: RealSystem, patch: Patch) -> tuple[Cartesian, int]:
 
 
 def _bound(system: RealSystem, dimension: int, task: RealTask) -> Known[int] | None:
-    """A bound of the dimension of a set, where it is one."""
+    """A bound of the dimension of a set, where it is one; first of the zeros of fewer equations."""
+    sets = [system]
+    few = fewer_equations(replace(task.feasible, equations=system.closed_equations), dimension)
+    if few is not None:
+        sets.insert(0, replace(task.feasible, equations=few))
+    for proof in (_proven_bound, _likely_bound):
+        for part in sets:
+            if (found := proof(part, dimension, task)) is not None:
+                return found
+    return None
+
+
+def _proven_bound(system: RealSystem, dimension: int, task: RealTask) -> Known[int] | None:
+    """A bound by exact algebra, the same in each look."""
+    chart, beside = _charted(system, unsplit(system.closed_equations, system.ring))
     by_modules = dimension_bound(system.closed_equations)
     if by_modules is not None and by_modules.value <= dimension:
         return by_modules
-    over_core = is_dimension_at_most(system.closed_equations, system.nonzero, dimension)
-    if over_core.value:
-        return Known(dimension, over_core.certainty)
-    chart, beside = _charted(system, unsplit(system.closed_equations, system.ring))
     if is_bounded(chart.system, dimension, beside):
         return Known(dimension)
+    over_core = is_dimension_at_most(system.closed_equations, system.nonzero, dimension)
+    return Known(dimension, over_core.certainty) if over_core.value else None
+
+
+def _likely_bound(system: RealSystem, dimension: int, task: RealTask) -> Known[int] | None:
+    """A bound that rests on random values of coordinates, or on random hyperplanes, that miss the set."""
     if task.most == dimension + 1 and task.coordinates:
         with attempt("a bound of a dimension", patience.BOUND_BY_JOINTS.work):
             missed = are_missed(system.closed_equations, task.coordinates)
@@ -322,6 +339,7 @@ def _bound(system: RealSystem, dimension: int, task: RealTask) -> Known[int] | N
         dependent = are_dependent(system, dimension, task.circles)
         if dependent.is_yes:
             return Known(dimension, dependent.certainty)
+    chart, beside = _charted(system, unsplit(system.closed_equations, system.ring))
     return bound_above(chart.system, dimension, beside)
 
 
