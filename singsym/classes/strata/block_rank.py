@@ -107,7 +107,7 @@ def block_rank(
     >>> from singsym.varieties.real.system import RealSystem
     >>> matrix = PolynomialMatrix.of(R, [[x, y], [x, y]])
     >>> block_rank(matrix, line, line.certifier(RealSystem(R, ()), ())).value
-    BlockRank(rank=1, minors=(x,), exact=True, seen_off=None)
+    BlockRank(rank=1, minors=(x,), exact=True, seen_off=x)
     """
     rows, columns = start
     premises = Premises()
@@ -189,9 +189,12 @@ def _with_locus(
             exact = exact and vanishes.is_proven
             continue
         if seen_off is not None and (i, j) != largest:
-            if premises.take(ground.has_no_zeros_inside(seen_off)):
+            borders = _is_rank(block, ground, certifier, (i, j))
+            if borders.value:
+                premises.take(borders)
+            elif premises.take(ground.has_no_zeros_inside(seen_off)):
                 seen_off = None
-            elif not premises.take(_is_rank(block, ground, certifier, (i, j))):
+            else:
                 # the rank may be higher where only this minor does not vanish
                 exact = False
                 continue

@@ -108,8 +108,11 @@ def test_a_combination_of_equations_vanishes() -> None:
     assert rank(PolynomialMatrix.of(R, [[y * one + x * two]]), where).rank == 0
 
 
-def test_whether_a_patch_is_irreducible_is_not_asked_for_one_minor(monkeypatch: pytest.MonkeyPatch) -> None:
-    """On x y = 0 only one entry does not vanish: off its zeros the rank is 1, whatever lies inside them."""
+def test_whether_a_patch_is_irreducible_is_asked_last(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Not where one entry alone does not vanish: off its zeros the rank is 1, whatever lies inside them.
+
+    Nor where the only larger minor is zero, so that each entry shows the rank.
+    """
 
     def asked(*given: object, **named: object) -> object:
         raise AssertionError
@@ -120,6 +123,9 @@ def test_whether_a_patch_is_irreducible_is_not_asked_for_one_minor(monkeypatch: 
     assert (found.rank, found.minors, found.seen_off) == (1, (y,), y)
     with pytest.raises(AssertionError):
         where.has_no_zeros_inside(y)
+    plane = Ground(Patch(R, {}, ()), ((1.0, 2.0),))
+    found = rank(PolynomialMatrix.of(R, [[x, y], [2 * x, 2 * y]]), plane)
+    assert (found.rank, set(found.minors)) == (1, {x, y})
 
 
 @pytest.mark.parametrize("n", [1, 2, 3])
