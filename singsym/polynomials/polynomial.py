@@ -379,10 +379,34 @@ class Polynomial:
 @lru_cache(maxsize=2**15)
 def _factors(polynomial: Polynomial) -> tuple[tuple[Polynomial, int], ...]:
     """See `Polynomial.factors`; kept, because equal polynomials are made again and again."""
-    found = [
-        (Polynomial(polynomial.ring, factor).primitive(), k) for factor, k in polynomial.value.factor()[1]
-    ]
+    irreducible, rest = None, polynomial
+    if len(polynomial) >= MANY_TERMS and 1 in polynomial.degrees:
+        irreducible, rest = first_degree_parts(polynomial, polynomial.degrees.index(1))
+    found = [(Polynomial(polynomial.ring, factor).primitive(), k) for factor, k in rest.value.factor()[1]]
+    if irreducible is not None:
+        found.append((irreducible, 1))
     return tuple(sorted(found, key=lambda pair: (len(pair[0]), pair[0].total_degree, str(pair[0]))))
+
+
+MANY_TERMS = 100
+"""Polynomials with fewer terms are factored as they are."""
+
+
+def first_degree_parts(polynomial: Polynomial, place: int) -> tuple[Polynomial, Polynomial]:
+    """The irreducible factor that holds a variable of first degree, primitive, and what is left without it.
+
+    Lemma (Gauss): a x + b with coprime a, b is irreducible.  Their common divisor is soon found, where to
+    factor the whole may take seconds.
+
+    >>> from singsym.polynomials import Ring
+    >>> x, y, z = Ring(("x", "y", "z")).gens
+    >>> first_degree_parts((x * y - z**2) * (y**2 - 1), 0)
+    (x*y - z^2, y^2 - 1)
+    """
+    ring, lead = polynomial.ring, polynomial.value.derivative(place)
+    tail = polynomial.value - lead * ring.gens[place].value
+    common = Polynomial(ring, lead.gcd(tail))
+    return polynomial.exact_quotient(common).primitive(), common
 
 
 def _rebuild(ring: Ring, terms: tuple[tuple[tuple[int, ...], int, int], ...]) -> Polynomial:

@@ -8,7 +8,7 @@ from fractions import Fraction
 import pytest
 from flint import arb, fmpq
 
-from singsym.polynomials import Ring
+from singsym.polynomials import Polynomial, Ring, polynomial
 
 R = Ring(("x", "y"))
 x, y = R.gens
@@ -54,6 +54,25 @@ def test_factors_are_those_over_the_rationals() -> None:
     assert (x**2 - 2 * y**2).factors() == [(x**2 - 2 * y**2, 1)]
     assert dict((-6 * x**2 * (y - 1) ** 3).factors()) == {x: 2, y - 1: 3}
     assert R.constant(5).factors() == []
+
+
+def test_a_long_polynomial_is_factored_by_a_variable_of_first_degree(monkeypatch: pytest.MonkeyPatch) -> None:
+    """z a + b is irreducible where a, b have no common divisor: here both are powers of different planes."""
+    x, y, z = Ring(("x", "y", "z")).gens
+    irreducible = z * (x + y + 1) ** 9 + (x - y + 2) ** 10
+    common = {x**2 + y**2 + 1: 1, x - 3: 2}
+    product = irreducible * (x**2 + y**2 + 1) * (x - 3) ** 2
+    asked: list[int] = []
+    original = polynomial.first_degree_parts
+
+    def noted(p: Polynomial, place: int) -> tuple[Polynomial, Polynomial]:
+        asked.append(place)
+        return original(p, place)
+
+    monkeypatch.setattr(polynomial, "first_degree_parts", noted)
+    assert dict((product * -6).factors()) == {irreducible.primitive(): 1, **common}
+    assert dict(irreducible.factors()) == {irreducible.primitive(): 1}
+    assert asked == [2, 2]
 
 
 def test_squarefree_part_and_gcd() -> None:

@@ -11,8 +11,6 @@ from itertools import chain
 
 from singsym.classes.realisation.certified_configuration import Names, configuration
 from singsym.classes.realisation.dimension_bounds import (
-    bound_above,
-    is_bounded,
     larger_parts,
     off_borders,
 )
@@ -23,7 +21,7 @@ from singsym.classes.realisation.finite_sets import (
     finitely_many,
     isolated_points,
 )
-from singsym.classes.realisation.local_coordinates import are_missed
+from singsym.classes.realisation.upper_bounds import charted, upper_bound
 from singsym.classes.result import Piece
 from singsym.classes.strata.branches import Found
 from singsym.classes.strata.occurrence import is_proven_empty, restricted
@@ -39,14 +37,12 @@ from singsym.polynomials.unit_circles import Pair
 from singsym.varieties.disjoint_parts import disjoint_parts
 from singsym.varieties.real.dimension.extent import EMPTY, Extent
 from singsym.varieties.real.dimension.hyperplane_cuts import Cut, dimension_by_cuts
-from singsym.varieties.real.dimension.independent_coordinates import are_dependent
 from singsym.varieties.real.dimension.real_dimension import (
     Dimension,
     component_dimension,
     independent,
     real_dimension,
 )
-from singsym.varieties.real.modules.dimension import dimension_bound, is_dimension_at_most
 from singsym.varieties.real.numerical.sampling import numerical_codimension
 from singsym.varieties.real.points.boxed_point import BoxPoint
 from singsym.varieties.real.points.certified_point import Witness, find_witness
@@ -264,7 +260,7 @@ def _singular(piece: Piece, system: RealSystem, patch: Patch) -> tuple[Piece, Ce
 
 def _dependent(piece: Piece, system: RealSystem, patch: Patch) -> tuple[Piece, CertifiedPoints]:
     """A set given by dependent equations: its dimension by cuts, else by its components."""
-    chart, beside = _charted(system, patch)
+    chart, beside = charted(system, patch)
     cut = _cut(chart.system)
     if cut is not None and cut.value.dimension < 0:
         verdict = Verdict.no(cut.certainty, reason="there is no complex solution")
@@ -296,33 +292,10 @@ def _unsolved(chart: Cartesian, patch: Patch, witness: Witness) -> tuple[float, 
     return tuple(solved.get(k, x) for k, x in enumerate(found))
 
 
-def _charted(system: RealSystem, patch: Patch) -> tuple[Cartesian, int]:
-    """A set on a patch in few variables, and how many of the ring's it leaves free there."""
-    chart = Cartesian.of(restricted(system, patch))
-    return chart, len(patch.solved) + chart.left_out
-
-
 def _bound(system: RealSystem, dimension: int, task: RealTask) -> Known[int] | None:
     """A bound of the dimension of a set, where it is one."""
-    by_modules = dimension_bound(system.closed_equations)
-    if by_modules is not None and by_modules.value <= dimension:
-        return by_modules
-    over_core = is_dimension_at_most(system.closed_equations, system.nonzero, dimension)
-    if over_core.value:
-        return Known(dimension, over_core.certainty)
-    chart, beside = _charted(system, unsplit(system.closed_equations, system.ring))
-    if is_bounded(chart.system, dimension, beside):
-        return Known(dimension)
-    if task.most == dimension + 1 and task.coordinates:
-        with attempt("a bound of a dimension", patience.BOUND_BY_JOINTS.work):
-            missed = are_missed(system.closed_equations, task.coordinates)
-            if missed.is_yes:
-                return Known(dimension, missed.certainty)
-    with attempt("a bound of a dimension", patience.BOUND_BY_VALUES.work):
-        dependent = are_dependent(system, dimension, task.circles)
-        if dependent.is_yes:
-            return Known(dimension, dependent.certainty)
-    return bound_above(chart.system, dimension, beside)
+    coordinates = task.coordinates if task.most == dimension + 1 else ()
+    return upper_bound(system, dimension, task.feasible, task.circles, coordinates)
 
 
 def _cut(system: RealSystem) -> Known[Cut] | None:

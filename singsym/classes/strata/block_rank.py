@@ -36,13 +36,14 @@ EASY_MINORS = 24
 class BlockRank:
     """The rank of a block where the `minors` of that size do not all vanish.
 
-    exact: whether all minors of that size vanish where these do; highest: whether the rank is nowhere larger.
+    exact: whether all minors of that size vanish where these do; seen_off: a polynomial off whose zeros the
+    rank is nowhere larger, where that is not known of all of the ground.
     """
 
     rank: int
     minors: tuple[Polynomial, ...]
     exact: bool = True
-    highest: bool = True
+    seen_off: Polynomial | None = None
 
 
 MOST_PRODUCTS = 10**10
@@ -106,7 +107,7 @@ def block_rank(
     >>> from singsym.varieties.real.system import RealSystem
     >>> matrix = PolynomialMatrix.of(R, [[x, y], [x, y]])
     >>> block_rank(matrix, line, line.certifier(RealSystem(R, ()), ())).value
-    BlockRank(rank=1, minors=(x,), exact=True, highest=True)
+    BlockRank(rank=1, minors=(x,), exact=True, seen_off=x)
     """
     rows, columns = start
     premises = Premises()
@@ -126,8 +127,8 @@ def block_rank(
         return premises.conclude(BlockRank(0, ()))
     if last.is_constant:
         return premises.conclude(BlockRank(len(rows), ()))
-    highest = largest or len(rows) == min(block.shape) or premises.take(ground.has_no_zeros_inside(last))
-    found = _with_locus(block, ground, certifier, (rows, columns), highest)
+    seen_off = None if largest or len(rows) == min(block.shape) else last
+    found = _with_locus(block, ground, certifier, (rows, columns), seen_off)
     return premises.pass_on(found)
 
 
@@ -147,11 +148,16 @@ def _weight(minor: Polynomial) -> tuple[int, int]:
 
 
 def _with_locus(
-    block: PolynomialMatrix, ground: Ground, certifier: Certifier, largest: Places, highest: bool
+    block: PolynomialMatrix,
+    ground: Ground,
+    certifier: Certifier,
+    largest: Places,
+    seen_off: Polynomial | None,
 ) -> Known[BlockRank]:
     """r-minors whose common zeros on the ground contain the locus of lower rank: all where they are few.
 
-    largest: one of them, whose bordering minors vanish; highest: whether no rank on the ground is larger.
+    largest: one of them, whose bordering minors vanish; seen_off: it, unless no rank on the ground is known
+    to be larger.
     """
     rows, columns = largest
     r = len(rows)
@@ -173,11 +179,6 @@ def _with_locus(
         if not exact and ground.seems_zero(minor):
             # without it the zeros are a larger set, if that
             continue
-        usable = highest or (i, j) == largest
-        if not (usable or premises.take(_is_rank(block, ground, certifier, (i, j)))):
-            # the rank may be higher where only this minor does not vanish
-            exact = False
-            continue
         try:
             vanishes = ground.vanishes(minor, certifier)
         except NotEvident:
@@ -187,6 +188,16 @@ def _with_locus(
         if vanishes.value:
             exact = exact and vanishes.is_proven
             continue
+        if seen_off is not None and (i, j) != largest:
+            borders = _is_rank(block, ground, certifier, (i, j))
+            if borders.value:
+                premises.take(borders)
+            elif premises.take(ground.has_no_zeros_inside(seen_off)):
+                seen_off = None
+            else:
+                # the rank may be higher where only this minor does not vanish
+                exact = False
+                continue
         if minor.is_constant:
             return premises.conclude(BlockRank(r, ()))
         minors[minor.squarefree_part()] = None
@@ -195,7 +206,7 @@ def _with_locus(
         minors[expanded(block.select(rows, columns)).squarefree_part()] = None
         exact = False
     shortest = tuple(sorted(minors, key=lambda m: (_weight(m), str(m))))
-    return premises.conclude(BlockRank(r, shortest, exact, highest))
+    return premises.conclude(BlockRank(r, shortest, exact, seen_off))
 
 
 def _swapped(shape: tuple[int, int], rows: tuple[int, ...], columns: tuple[int, ...]) -> Iterator[Places]:

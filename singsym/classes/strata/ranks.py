@@ -146,7 +146,7 @@ def ranked(
     ranks.examine(other)
     defect = ranks.defect
     defects = Defects(defect["L"], defect["L_p"], defect["L_I"], defect["L_O"])
-    matters = other in relevant(defects) or not ranks.highest[other]
+    matters = other in relevant(defects) or not ranks.is_highest(other)
     loci = ranks.loci if matters else before
     found = Stratum(ground.equations, defects, tuple(loci), ground.component)
     return ranks.premises.conclude(Ranked(None if defects.types in complete_types else found, loci))
@@ -166,7 +166,7 @@ class _Ranks:
     feasible: RealSystem
     defect_bounds: dict[str, int]
     defect: dict[str, int] = field(default_factory=lambda: {"L": 0, "L_p": 0})
-    highest: dict[str, bool] = field(default_factory=lambda: dict.fromkeys(_BELOW, True))
+    seen_off: dict[str, list[Polynomial]] = field(default_factory=dict)
     loci: dict[Equations, dict[str, int]] = field(default_factory=dict)
     premises: Premises = field(default_factory=Premises)
 
@@ -188,7 +188,7 @@ class _Ranks:
             for block, start in zip(parts.blocks, starts, strict=True)
         ]
         self.defect[name] = full - sum(block.rank for block in found)
-        self.highest[name] = all(block.highest for block in found)
+        self.seen_off[name] = [block.seen_off for block in found if block.seen_off is not None]
         for block, whole in zip(found, parts.blocks, strict=True):
             lower = full - (most - min(whole.shape) + block.rank - 1)
             alternatives, exact = union_of_loci(block.minors, certifier)
@@ -196,3 +196,9 @@ class _Ranks:
                 there = self.loci.setdefault(locus, {})
                 if block.exact and exact and lower > 0 and locus not in earlier:
                     there[name] = max(lower, there.get(name, 0))
+
+    def is_highest(self, name: str) -> bool:
+        """Whether the rank of a matrix is proven to be nowhere higher on the ground."""
+        return all(
+            self.premises.take(self.ground.has_no_zeros_inside(p)) for p in self.seen_off.get(name, ())
+        )

@@ -124,7 +124,7 @@ def test_a_dimension_bounded_modulo_a_prime(monkeypatch: pytest.MonkeyPatch) -> 
     monkeypatch.setattr("singsym.classes.realisation.dimension_bounds.Ideal", Endless)
     monkeypatch.setattr("singsym.classes.realisation.dimension_bounds.is_dimension_at_most", lambda *_: False)
     monkeypatch.setattr(
-        "singsym.classes.realisation.realisation.is_dimension_at_most", lambda *_: Known(False)
+        "singsym.classes.realisation.upper_bounds.is_dimension_at_most", lambda *_: Known(False)
     )
     ring = Ring(("x", "y", "z"))
     x, y, z = ring.gens

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from singsym.classes.strata import ground as ground_module
 from singsym.classes.strata.block_rank import BlockRank, block_rank, union_of_loci
 from singsym.classes.strata.ground import Ground, NotEvident
 from singsym.classes.strata.patches import Patch
@@ -105,6 +106,26 @@ def test_a_combination_of_equations_vanishes() -> None:
     one, two = x**2 - 2 * y**2, y**3 - x
     where = Ground(Patch(R, {}, (one, two)), ((2**0.75, 2**0.25),))
     assert rank(PolynomialMatrix.of(R, [[y * one + x * two]]), where).rank == 0
+
+
+def test_whether_a_patch_is_irreducible_is_asked_last(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Not where one entry alone does not vanish: off its zeros the rank is 1, whatever lies inside them.
+
+    Nor where the only larger minor is zero, so that each entry shows the rank.
+    """
+
+    def asked(*given: object, **named: object) -> object:
+        raise AssertionError
+
+    monkeypatch.setattr(ground_module, "decompose", asked)
+    where = Ground(Patch(R, {}, (x * y,)), ((0.0, 1.0),))
+    found = rank(PolynomialMatrix.of(R, [[y, x * y], [x * y**2, 0]]), where)
+    assert (found.rank, found.minors, found.seen_off) == (1, (y,), y)
+    with pytest.raises(AssertionError):
+        where.has_no_zeros_inside(y)
+    plane = Ground(Patch(R, {}, ()), ((1.0, 2.0),))
+    found = rank(PolynomialMatrix.of(R, [[x, y], [2 * x, 2 * y]]), plane)
+    assert (found.rank, set(found.minors)) == (1, {x, y})
 
 
 @pytest.mark.parametrize("n", [1, 2, 3])

@@ -23,7 +23,8 @@ from singsym.elimination.ideal import Ideal
 from singsym.elimination.memo import remember
 from singsym.elimination.modulo_primes import residues
 from singsym.polynomials import Polynomial, Ring
-from singsym.polynomials.unit_circles import Pair, half_angle_point, unit_circles
+from singsym.polynomials.remainders import remainder
+from singsym.polynomials.unit_circles import Pair, circle, half_angle_point, unit_circles
 from singsym.varieties.real.system import RealSystem
 from singsym.varieties.splitting import used_ring
 
@@ -58,7 +59,7 @@ def _are_dependent(system: RealSystem, dimension: int, circles: Iterable[Pair]) 
     equations = system.closed_equations
     ring = used_ring(system.ring, equations)
     count = dimension + 1 - (len(system.ring.names) - len(ring.names))
-    coordinates = _coordinates(ring, {*unit_circles(equations), *circles})
+    coordinates = _untied(_coordinates(ring, {*unit_circles(equations), *circles}), equations)
     if count <= 0 or comb(len(coordinates), count) > MOST_CHOICES:
         return _MET
     random = chance.random("independent coordinates", *equations)
@@ -107,6 +108,62 @@ def _coordinates(ring: Ring, circles: Iterable[Pair]) -> list[tuple[str, ...]]:
     paired = {name for pair in pairs for name in pair}
     fixed = {c.name for c in ring.constants}
     return [*pairs, *((name,) for name in ring.names if name not in paired and name not in fixed)]
+
+
+Coordinate = tuple[str, ...]
+"""A variable by itself, or a pair on a circle."""
+
+
+def _untied(coordinates: Sequence[Coordinate], equations: Sequence[Polynomial]) -> list[Coordinate]:
+    """The coordinates without those that are algebraic over what is kept."""
+    ties = [
+        (own, other)
+        for own in coordinates
+        for other in ((), *coordinates)
+        if other != own and any(_is_tied(own, other, p) for p in equations)
+    ]
+    kept = list(coordinates)
+    for own in coordinates:
+        rest = [names for names in kept if names != own]
+        if own in _algebraic(rest, ties):
+            kept = rest
+    return kept
+
+
+def _algebraic(known: Iterable[Coordinate], ties: Sequence[tuple[Coordinate, Coordinate]]) -> set[Coordinate]:
+    """What ties make algebraic over these, and these themselves."""
+    found: set[Coordinate] = {(), *known}
+    while more := {own for own, other in ties if other in found} - found:
+        found |= more
+    return found
+
+
+def _is_tied(own: Coordinate, other: Coordinate, p: Polynomial) -> bool:
+    """Whether an equation leaves finitely many values of a coordinate over each value of another one.
+
+    It does where it is not zero for all values of the first over any of the second (see the lemma).
+    """
+    ring = p.ring
+    beside = {*other, *(c.name for c in ring.constants)}
+    if beside.issuperset(p.variables) or not beside.union(own).issuperset(p.variables):
+        return False
+    if len(own) == 2:
+        p = remainder(p, circle(*map(ring.gen, own)), own[0])
+    parts = _coefficients(p, own)
+    if any(part.is_constant for part in parts):
+        return True
+    on_circle = [circle(*map(ring.gen, other))] if len(other) == 2 else []
+    small = ring.subring(beside)
+    unit = Ideal(small, map(small.convert, (*parts, *on_circle))).is_unit()
+    return unit.value and unit.is_proven
+
+
+def _coefficients(p: Polynomial, names: Sequence[str]) -> list[Polynomial]:
+    """The coefficients of a polynomial in some variables that are not zero."""
+    found = [p]
+    for name in names:
+        found = [part.coefficient(name, k) for part in found for k in range(part.degree(name) + 1)]
+    return [part for part in found if part]
 
 
 def _is_empty(ring: Ring, equations: Sequence[Polynomial]) -> bool:

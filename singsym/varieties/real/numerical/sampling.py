@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import islice
+from math import prod
 
 from singsym.effort.chaos import strikes
 from singsym.polynomials import Polynomial
@@ -116,9 +117,16 @@ def is_large(
     Relative to its largest term where all variables have these sizes; to its coefficients without them; and
     more than what is left of the largest terms at the point by rounding.
     """
-    size = largest_term(polynomial, sizes or (1.0,) * len(polynomial.ring.names))
+    coefficient = largest_term(polynomial, (1.0,) * len(polynomial.ring.names))
+    size = coefficient if sizes is None else largest_term(polynomial, sizes)
     for x in points:
         value = abs(polynomial.evaluate(x))
-        if value > threshold * size and value > ROUNDING * largest_term(polynomial, tuple(map(abs, x))):
+        if value <= threshold * size:
+            continue
+        at = tuple(map(abs, x))
+        most = coefficient * prod(
+            max(1.0, a) ** max(d, 0) for a, d in zip(at, polynomial.degrees, strict=True)
+        )
+        if value > ROUNDING * most or value > ROUNDING * largest_term(polynomial, at):
             return True
     return False

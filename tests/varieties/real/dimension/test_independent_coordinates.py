@@ -57,22 +57,50 @@ def test_what_is_excluded_does_not_count() -> None:
     assert least(RealSystem(R, products, exclusions=((x, y),))) == 1
 
 
-def test_a_circle_is_one_coordinate(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Three circles, of which the angles are related once; the third circle follows from other equations."""
-    names = ("c1", "s1", "c2", "s2")
-    c1, s1, c2, s2 = Ring(names).gens
-    system = RealSystem(c1.ring, (c1**2 + s1**2 - 1, c2 - c1, s2 - s1))
-    assert least(system) == 1
-    drawn: list[tuple[str, ...]] = []
+@pytest.fixture
+def drawn(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, ...]]:
+    """The coordinates that random values are drawn for."""
+    found: list[tuple[str, ...]] = []
     original = independent_coordinates.random_values
 
     def noted(ring: Ring, chosen: tuple[str, ...], random: Random) -> object:
-        drawn.append(chosen)
+        found.append(chosen)
         return original(ring, chosen, random)
 
     monkeypatch.setattr(independent_coordinates, "random_values", noted)
-    assert are_dependent(system, 1, [("c2", "s2")]).certainty == "modular"
-    assert drawn == [("c1", "s1"), ("c2", "s2")]
+    return found
+
+
+def test_a_circle_is_one_coordinate(drawn: list[tuple[str, ...]]) -> None:
+    """Three circles, one angle is the sum of the others: that its circle is one follows from the others."""
+    c1, s1, c2, s2, c3, s3 = Ring(("c1", "s1", "c2", "s2", "c3", "s3")).gens
+    circles = tuple(c**2 + s**2 - 1 for c, s in ((c1, s1), (c2, s2)))
+    system = RealSystem(c1.ring, (*circles, c3 - c1 * c2 + s1 * s2, s3 - s1 * c2 - c1 * s2))
+    assert least(system) == 2
+    drawn.clear()
+    assert are_dependent(system, 2, [("c3", "s3")]).certainty == "modular"
+    assert drawn == [("c1", "s1"), ("c2", "s2"), ("c3", "s3")]
+
+
+def test_a_coordinate_that_another_one_determines_is_not_chosen(drawn: list[tuple[str, ...]]) -> None:
+    """Angles with c2 = -c1, or with both in line, and a length with u^3 = 2 are algebraic over the others.
+
+    By the conditions at sight: two angles in line are apart by 0 or 180 degrees.
+    """
+    c1, s1, c2, s2, c3, s3, u, v = Ring(("c1", "s1", "c2", "s2", "c3", "s3", "u", "v")).gens
+    circles = tuple(c**2 + s**2 - 1 for c, s in ((c1, s1), (c2, s2), (c3, s3)))
+    ties = (c1 + c2, s1 * c3 - c1 * s3, u**3 - 2)
+    system = RealSystem(c1.ring, (*circles, *ties, v**2 * c2 - s3 * u))
+    assert are_dependent(system, 1).is_yes
+    assert {names[0] for names in drawn} in ({"c1", "v"}, {"c2", "v"}, {"c3", "v"})
+    assert least(system) == 1
+
+
+def test_a_coordinate_is_free_where_its_equation_says_nothing() -> None:
+    """c x1 = s x1 holds for all angles at x1 = 0, where x2 is free as well."""
+    c, s, x1, x2 = Ring(("c", "s", "x1", "x2")).gens
+    system = RealSystem(c.ring, (c**2 + s**2 - 1, x1 * (c - s), x1 * x2))
+    assert least(system) == 2
 
 
 def test_values_that_are_taken_are_not_missed() -> None:

@@ -7,7 +7,9 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from singsym.polynomials import Ring
+from singsym.polynomials import Polynomial, Ring
+from singsym.polynomials.sizes import largest_term
+from singsym.varieties.real.numerical import sampling
 from singsym.varieties.real.numerical.sampling import numerical_codimension, numerical_points
 from singsym.varieties.real.points.certified_point import find_witness
 from singsym.varieties.real.system import RealSystem
@@ -50,3 +52,22 @@ def test_witnesses_in_every_unit(k: Fraction) -> None:
     assert found is not None
     assert all(found.sign(p) == 0 for p in system.equations)
     assert found.sign(10 * y - k) == 1
+
+
+def test_what_is_large_is_seen_without_all_terms_at_a_point(monkeypatch: pytest.MonkeyPatch) -> None:
+    """x^2 y - 3 is -1 at (1, 2): more than rounding, whatever its terms are, which are 4 at most.
+
+    At x = 10^6 it is rounding alone that may leave 1 of terms of 10^12.
+    """
+    p = x**2 * y - 3
+    asked: list[tuple[float, ...]] = []
+
+    def noted(polynomial: Polynomial, sizes: tuple[float, ...]) -> float:
+        asked.append(sizes)
+        return largest_term(polynomial, sizes)
+
+    monkeypatch.setattr(sampling, "largest_term", noted)
+    assert sampling.is_large(p, ((1.0, 2.0, 0.0),))
+    assert asked == [(1.0, 1.0, 1.0)]
+    assert not sampling.is_large(x**2 - y**2 + 1, ((1e6, 1e6, 0.0),))
+    assert asked[1:] == [(1.0, 1.0, 1.0), (1e6, 1e6, 0.0)]
