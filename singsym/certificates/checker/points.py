@@ -10,9 +10,8 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any
 
-from flint import arb, ctx, fmpq_mpoly, fmpq_poly
+from flint import arb, arb_poly, ctx, fmpq_mpoly, fmpq_poly
 
-from singsym.certificates.checker.balls import horner
 from singsym.certificates.checker.polynomials import Rejected, polynomial, rational, remainder
 from singsym.certificates.checker.ranks import Defects, is_possible, types_of
 from singsym.certificates.checker.sets import MATRICES, RealSet, Statement, listed, named, power
@@ -130,7 +129,7 @@ class Chart:
         while bits <= MOST_BITS:
             with ctx.workprec(bits):
                 roots = real_roots(factor)
-                decided = [[horner(value.coeffs(), root).sgn() for value in signs] for root in roots]
+                decided = [[arb_poly(value)(root).sgn() for value in signs] for root in roots]
             if all(sign.is_exact() for own in decided for sign in own):
                 return sum(all(sign > 0 for sign in own) for own in decided)
             bits *= 2
@@ -138,7 +137,7 @@ class Chart:
 
     def balls(self, there: fmpq_poly) -> list[list[arb]]:
         """Balls around the points of the real roots of a polynomial without double roots."""
-        values = [[horner(f.coeffs(), root) for f in self.images] for root in real_roots(there)]
+        values = [[arb_poly(f)(root) for f in self.images] for root in real_roots(there)]
         return [[value / below for value in own] for *own, below in values]
 
 
