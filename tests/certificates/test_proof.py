@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import pytest
 
+from singsym.certificates.checker.polynomials import Rejected
 from singsym.certificates.checker.sets import statement
-from singsym.certificates.prover import proof
+from singsym.certificates.prover import proof, unit_products
 from singsym.certificates.prover.proof import Hints, prove
+from singsym.effort.budget import Undecided
 from singsym.polynomials import Ring
 
 
@@ -28,3 +30,17 @@ def test_a_set_with_a_known_point_is_not_asked_whether_it_is_empty(monkeypatch: 
     x, y = Ring(("x", "y")).gens
     found = prove(statement(data | empty), Hints(((x**2 + y**2 - 1).value,), (), ((1.0, 0.0),)))
     assert [line["rule"] for line in found.lines] == ["split", "derive", "ranks", "ranks"]
+
+
+def test_a_remainder_that_the_checker_refuses_ends_the_attempt_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    """That a set is empty is then not seen; the search goes on without it, as after any attempt in vain."""
+
+    def refuses(*_: object) -> None:
+        raise Rejected("a remainder becomes too long")
+
+    data = {"variables": ["x", "y"], "L": [["1", "x"]], "roles": ["output", "input"], "N": 1, "n": 1}
+    empty = {key: [] for key in ("constants", "equations", "exclusions", "positive", "nonnegative")}
+    at = statement(data | empty).whole
+    monkeypatch.setattr(unit_products, "remainder", refuses)
+    with pytest.raises(Undecided, match="too long"):
+        unit_products.cancelled(at.context.constant(1), at)
