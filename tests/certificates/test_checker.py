@@ -109,6 +109,13 @@ def test_only_units_cancel() -> None:
         cancel(whole("x*y", exclusions=[["y"]]), line)
 
 
+def test_products_of_units_are_reduced_after_each_multiplication() -> None:
+    """x^2 is y, and y z = 0; of x^2 z as it stands x z = w would leave x w, as E is no basis."""
+    at = whole("x*z - w", "x^2 - y", "y*z", exclusions=[["x^2"]], variables=["x", "y", "z", "w"])
+    found = cancel(at, {"polynomial": "z", "units": [0], "power": 1})[0]
+    assert str(found.equations[-1]) == "z"
+
+
 def test_squares_with_positive_weights_vanish_one_by_one() -> None:
     """x^2 - 2 x y + 3 y^2 = (x - y)^2 + 2 y^2."""
     at = whole("x^2 - 2*x*y + 3*y^2")
