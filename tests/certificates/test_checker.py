@@ -7,15 +7,16 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from random import Random
 from typing import Any
 
 import pytest
-from flint import ctx
+from flint import ctx, fmpq_poly
 
 import singsym
 from singsym.certificates.checker import verification
 from singsym.certificates.checker.curves import Tubes, components
-from singsym.certificates.checker.points import points
+from singsym.certificates.checker.points import points, rank_over
 from singsym.certificates.checker.polynomials import Rejected, polynomial, ring
 from singsym.certificates.checker.ranks import bounds_on, possible_types
 from singsym.certificates.checker.rules import cancel, derive, pivot, squares
@@ -108,6 +109,13 @@ def test_only_units_cancel() -> None:
         cancel(whole("x*y", exclusions=[["y"]]), line)
 
 
+def test_products_of_units_are_reduced_after_each_multiplication() -> None:
+    """x^2 is y, and y z = 0; of x^2 z as it stands x z = w would leave x w, as E is no basis."""
+    at = whole("x*z - w", "x^2 - y", "y*z", exclusions=[["x^2"]], variables=["x", "y", "z", "w"])
+    found = cancel(at, {"polynomial": "z", "units": [0], "power": 1})[0]
+    assert str(found.equations[-1]) == "z"
+
+
 def test_squares_with_positive_weights_vanish_one_by_one() -> None:
     """x^2 - 2 x y + 3 y^2 = (x - y)^2 + 2 y^2."""
     at = whole("x^2 - 2*x*y + 3*y^2")
@@ -170,6 +178,38 @@ def test_all_points_are_there_or_it_is_rejected() -> None:
     not_all = one_joint("4*y^2 - 3", "2*x^2 - x")
     with pytest.raises(Rejected, match="more points"):
         points(not_all.whole, not_all, line)
+
+
+def test_ranks_at_a_point_are_those_of_the_field() -> None:
+    """L_O = [[x, 1], [2, x]] has the determinant x^2 - 2: zero at both points, though no zero of Q[x].
+
+    L_I = [[1, 1], [0, x]] has x, which is not zero there; L is full with it, and L_p = (1, x) is.
+    """
+    matrix, roles = [["1", "x", "1"], ["0", "2", "x"]], ["output", "input", "passive"]
+    there = about(["x^2 - 2", "y"], matrix, roles)
+    line = {"form": "x", "minimal": ["-2", "0", "1"], "coordinates": {"x": ["4"], "y": []}}
+    assert [found[:2] for found in points(there.whole, there, line)] == [("RI, IO", 2)]
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_ranks_by_elimination_without_fractions(seed: int) -> None:
+    """Rows that are combinations of r independent ones: [1, 0, *], [0, 1, *], ... have the rank r."""
+    random = Random(seed)
+    factor, rank = fmpq_poly([-2, 0, 0, 1]), seed % 4
+
+    def number() -> fmpq_poly:
+        return fmpq_poly([random.randint(-3, 3) for _ in range(3)])
+
+    basis = [[fmpq_poly([int(i == j)]) if j < rank else number() for j in range(4)] for i in range(rank)]
+    weights = [[number() if i >= rank else fmpq_poly([int(i == k)]) for k in range(rank)] for i in range(4)]
+    rows = [
+        [sum((w * row[j] for w, row in zip(own, basis, strict=True)), start=fmpq_poly([])) for j in range(4)]
+        for own in weights
+    ]
+    # the same in the field, but not in Q[u]
+    rows = [[entry + factor * number() for entry in row] for row in rows]
+    random.shuffle(rows)
+    assert rank_over(rows, factor) == rank
 
 
 def test_a_box_without_a_point() -> None:

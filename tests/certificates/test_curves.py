@@ -134,6 +134,66 @@ def test_a_curve_without_real_points() -> None:
             components(empty, wrong)
 
 
+def ovals_where(*positive: str) -> RealSet:
+    """z^2 = x y - 2/5 over the unit circle: an oval with x > 0 and one with x < 0."""
+    about = data(["x", "y", "z"], "x^2 + y^2 - 1", "z^2 - x*y + 2/5")
+    return statement(about | {"positive": list(positive)}).whole
+
+
+POINT = {
+    "fixed": {"z": "0"},
+    "centre": {"x": "4472135955/10000000000", "y": "8944271910/10000000000"},
+    "radius": "1/100000000",
+    "square": [0, 1],
+}
+"""x y = 2/5 at (1, 2)/sqrt(5), which is about (0.4472135955, 0.8944271910)."""
+
+
+@pytest.mark.parametrize(("positive", "left"), [((), 2), (("x",), 1), (("x", "2 - x"), 1), (("x - 2",), 0)])
+def test_loops_on_which_an_inequality_fails_are_none_of_the_set(positive: tuple[str, ...], left: int) -> None:
+    """On both ovals x y >= 2/5, so that x is not zero; and it is at most 1."""
+    at = ovals_where(*positive)
+    leaf = curve_leaf(at, POINT, based)
+    assert leaf is not None
+    assert len(leaf["loops"]) == 2
+    assert len(components(at, {**POINT, **leaf})) == left
+
+
+def test_an_inequality_that_cuts_a_curve() -> None:
+    """z is zero on both ovals: what is left of them are arcs, which no one counts."""
+    at = ovals_where("z")
+    for leaf in (curve_leaf(at, POINT, based), curve_leaf(ovals_where("x"), POINT, based)):
+        assert leaf is not None
+        with pytest.raises(Rejected):
+            components(at, {**POINT, **leaf})
+
+
+@pytest.mark.parametrize("signs", [None, [], [{"steps": [], "equations": [0, 1, 2]}], ["twice"], ["another"]])
+def test_that_inequalities_vanish_nowhere_is_not_believed(signs: Any) -> None:
+    at = ovals_where("x")
+    leaf = curve_leaf(at, POINT, based)
+    assert leaf is not None
+    if signs == ["twice"]:
+        signs = 2 * leaf["signs"]
+    elif signs == ["another"]:
+        other = curve_leaf(ovals_where("x - 2"), POINT, based)
+        assert other is not None
+        signs = other["signs"]
+    wrong = {key: value for key, value in {**POINT, **leaf, "signs": signs}.items() if value is not None}
+    with pytest.raises(Rejected):
+        components(at, wrong)
+
+
+def test_loops_over_another_root_are_none_of_the_set(tmp_path: Path) -> None:
+    """(x - s)^2 + y^2 = 1 with s = sqrt(2), a constant between 1 and 2: one circle; that over -s is none."""
+    about = data(["x", "y", "s"], "s^2 - 2", "x^2 - 2*x*s + s^2 + y^2 - 1") | {"constants": [["s", "1", "2"]]}
+    lines = prove(statement(about), Hints(curves=True)).lines
+    assert len(loops(lines)) == 2
+    assert _components(lines, about, tmp_path / "circle", []) == 1
+    with pytest.raises(Rejected, match="no curves"):
+        _components(lines, about, tmp_path / "circle", [loops(lines)])
+
+
 def test_a_curve_that_may_be_of_two_types_counts_for_neither() -> None:
     """Its loops may all be of the other types."""
     at = over_a_circle("2/5")

@@ -13,9 +13,12 @@ from pathlib import Path
 import pytest
 
 from singsym.certificates.checker.rules import RULES
-from singsym.certificates.checker.verification import LEAVES
+from singsym.certificates.checker.sets import statement
+from singsym.certificates.checker.verification import FORMAT, LEAVES, all_types, verify
+from singsym.certificates.prover.proof import Hints, prove
 from singsym.certificates.prover.writing import Certificate
 from tests.certificates.damage import KINDS, damaged
+from tests.certificates.test_curves import data
 from tests.certificates.trials import NAMES, trials
 from tests.laws.draws import draw, runs
 
@@ -29,6 +32,22 @@ def test_a_damaged_certificate(name: str, certified: Callable[[str], Certificate
     for trial in done:
         assert trial.outcome != "FALSE", (trial.what, trial.damage.kind, trial.damage.field)
     assert sum(trial.outcome == "rejected" for trial in done) > EACH / 3
+
+
+@pytest.mark.parametrize("positive", [["x"], ["x - 2"]])
+def test_a_damaged_curve_within_inequalities(positive: list[str], tmp_path: Path) -> None:
+    """Of two ovals, where x is in (0, 1] and in [-1, 0), one is left, or none."""
+    about = data(["x", "y", "z"], "x^2 + y^2 - 1", "z^2 - x*y + 2/5") | {"positive": positive}
+    occurs = positive == ["x"]
+    own = {"types": "RI, IO", "occurs": occurs} | ({"dimension": 1, "components": 1} if occurs else {})
+    others = [types for types in all_types(statement(about)) if types != "RI, IO"]
+    claims = [own, *({"types": types, "occurs": False} for types in others)]
+    lines = prove(statement(about), Hints(curves=True)).lines
+    whole = Certificate(({"format": FORMAT, "name": "own", "claims": claims}, about, *lines))
+    assert verify(whole.write(tmp_path / "whole")).complete
+    assert any("signs" in line.get("curve", {}) for line in lines)
+    for trial in trials(whole, runs(60), draw("damage", *positive), tmp_path):
+        assert trial.outcome != "FALSE", (trial.what, trial.damage.kind, trial.damage.field)
 
 
 def test_each_rule_is_damaged(certified: Callable[[str], Certificate]) -> None:

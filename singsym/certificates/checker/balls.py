@@ -35,14 +35,6 @@ class Compiled:
         return total
 
 
-def horner(coefficients: Sequence[Any], t: arb) -> arb:
-    """The value of a polynomial in one variable, the constant term first, at a ball."""
-    total = arb(0)
-    for c in reversed(coefficients):
-        total = total * t + c
-    return total
-
-
 def is_off_zero(f: fmpq_mpoly, values: Sequence[arb]) -> bool:
     """Whether a polynomial vanishes nowhere in a box."""
     return not Compiled(f).at(values).contains(0)

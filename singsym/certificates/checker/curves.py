@@ -16,7 +16,7 @@ from typing import Any
 
 from flint import arb, arb_mat, arb_poly, ctx, fmpq, fmpq_mat, fmpq_mpoly
 
-from singsym.certificates.checker.balls import Compiled, horner, is_off_zero, preconditioned
+from singsym.certificates.checker.balls import Compiled, is_off_zero, preconditioned
 from singsym.certificates.checker.points import chart_of
 from singsym.certificates.checker.polynomials import Rejected, determinant, polynomial, rational, remainder
 from singsym.certificates.checker.rules import Line, derive
@@ -32,14 +32,15 @@ UNIT = 10**9
 def components(at: RealSet, data: Line) -> Loops:
     """The components of a curve, the zeros of the equations of a set, in tubes; raises `Rejected`.
 
-    The set has no inequalities, and one generator less than variables; or else there is a `square` system,
-    see `strata.implied`.  bounded: see `_check_bounded`; critical: see `_critical_points`;
-    loops: chains of tubes, see `Tubes.tube`.  Each critical point lies in a tube, and each loop has a point
-    that is in the set, so that the loop is its closure.
+    The set has one generator less than variables; or else there is a `square` system, see `strata.implied`.
+    bounded: see `_check_bounded`; critical: see `_critical_points`; loops: chains of tubes, see
+    `Tubes.tube`.  Each critical point lies in a tube, and each loop has a point that is in the set up to
+    inequalities, so that the loop is its closure.  signs: that these vanish nowhere on the equations' zeros,
+    see `real_points`, one for each; loops on which one is negative are left out.
     """
     own, local = square_system(at, data)
-    if not own or len(own) != len(at.variables) - 1 or at.positive or at.nonnegative:
-        raise Rejected("a curve: expected equations, one less than variables, and no inequalities")
+    if not own or len(own) != len(at.variables) - 1:
+        raise Rejected("a curve: expected equations, one less than variables")
     _check_bounded(at, listed(data, "bounded", list))
     system = Tubes(own)
     with ctx.workprec(BITS):
@@ -53,10 +54,22 @@ def components(at: RealSet, data: Line) -> Loops:
             for other in loops[:k]:
                 if not all(tube.misses(loop[0].start) for tube in other):
                     raise Rejected(f"loop {k} is not seen to be another one than those before")
+        inside = list[Boxes]([[] for _ in loops])
         for box in _critical_points(at, own, local, named(data, "critical")):
-            if _loop_of(box, loops) is None:
-                raise Rejected("a critical point lies in no tube")
-    return loops
+            inside[_loop_of(box, loops)].append(box)
+        entries, within = listed(data, "signs", dict, []), [at.within([f]) for f in at.inequalities]
+        if len(entries) != len(within) or any(map(real_points, within, entries)):
+            raise Rejected("signs: an inequality may vanish on a curve")
+        return [loop for loop, boxes in zip(loops, inside, strict=True) if _has_signs(at, boxes)]
+
+
+def _has_signs(at: RealSet, boxes: Boxes) -> bool:
+    """Whether inequalities that vanish nowhere on a loop hold at points of it; raises `Rejected`."""
+    values = [[Compiled(f).at(box) for box in boxes] for f in at.inequalities]
+    signs = [{value > 0 for value in own if not value.contains(0)} for own in values]
+    if any(len(own) != 1 for own in signs):
+        raise Rejected("signs: that of an inequality is not seen on a loop")
+    return {False} not in signs
 
 
 def square_system(at: RealSet, data: Line) -> tuple[Sequence[fmpq_mpoly], fmpq_mpoly]:
@@ -145,7 +158,7 @@ class Tubes:
         terms = max(map(len, series))
         # the inverse first, then the range: what cancels is not counted twice
         on_line = inverse * arb_mat([[*c, *[arb(0)] * (terms - len(c))] for c in series])
-        ranges = [horner([on_line[i, k] for k in range(terms)], half) for i in range(len(others))]
+        ranges = [arb_poly([on_line[i, k] for k in range(terms)])(half) for i in range(len(others))]
         moved = defect * arb_mat([[spread] for _ in others])
         if not all(abs(total + moved[i, 0]) < radius for i, total in enumerate(ranges)):
             raise Rejected("a tube: the Newton operator does not map it into itself")
@@ -161,12 +174,10 @@ class Tubes:
 
     def _read(self, entry: Any) -> tuple[int, arb, arb, tuple[arb, ...], tuple[arb, ...], arb]:
         """The numbers of a tube; raises `Rejected`."""
-        entry = entry if isinstance(entry, list) else [entry]
-        lists = [part for part in entry if isinstance(part, list)]
-        numbers = [x for part in entry for x in (part if isinstance(part, list) else [part])]
-        if [*map(len, lists)] == 2 * [self.size] and len(entry) == 6 and all(type(x) is int for x in numbers):
+        if isinstance(entry, list) and [*map(type, entry)] == [int, int, int, list, list, int]:
             along, first, last, centre, slope, radius = entry
-            if lists == [centre, slope] and 0 <= along < self.size and radius > 0 and first != last:
+            whole = all(type(x) is int for x in (*centre, *slope)) and radius > 0 and first != last
+            if whole and len(centre) == len(slope) == self.size and 0 <= along < self.size:
                 a, b, r = _line((first, last, radius))
                 return along, a, b, _line(centre), _line(slope), r
         raise Rejected(f"expected a tube of {self.size} coordinates, got {str(entry)[:80]}")
@@ -222,8 +233,7 @@ def _critical_points(at: RealSet, own: Sequence[fmpq_mpoly], local: fmpq_mpoly, 
     factors = listed(data, "factors", dict)
     parts = [polynomial(entry.get("polynomial", ""), at.context) for entry in factors]
     for part, entry in zip(parts, factors, strict=True):
-        for _ in range(power(entry, "multiplicity")):
-            product = product * part
+        product = product * part ** power(entry, "multiplicity")
     if not product or remainder(determinant(rows, at.equations) * local - product, at.equations):
         raise Rejected("critical: the determinant is not seen to be this product")
     pairs = zip(parts, factors, strict=True)
@@ -247,12 +257,14 @@ def meetings(one: Curve, two: Curve, line: Line) -> list[tuple[int, int]]:
     """Which loops of two curves have a point in common, by all points of both sets; raises `Rejected`."""
     found = []
     for box in real_points(one[0].within(two[0].equations), line):
-        i, j = (_loop_of(box, loops) for _, loops in (one, two))
-        if i is None or j is None:
-            raise Rejected("a point of two curves lies in no tube")
-        found.append((i, j))
+        if not any(Compiled(f).at(box) < 0 for f in one[0].inequalities):
+            found.append((_loop_of(box, one[1]), _loop_of(box, two[1])))
     return found
 
 
-def _loop_of(box: Sequence[arb], loops: Loops) -> int | None:
-    return next((k for k, loop in enumerate(loops) if any(tube.holds(box) for tube in loop)), None)
+def _loop_of(box: Sequence[arb], loops: Loops) -> int:
+    """The loop on which a point lies, critical or of two curves; raises `Rejected`."""
+    for k, loop in enumerate(loops):
+        if any(tube.holds(box) for tube in loop):
+            return k
+    raise Rejected("a critical point, or one of two curves, lies in no tube")

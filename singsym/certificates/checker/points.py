@@ -10,9 +10,8 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any
 
-from flint import arb, ctx, fmpq_mpoly, fmpq_poly
+from flint import arb, arb_poly, ctx, fmpq_mpoly, fmpq_poly
 
-from singsym.certificates.checker.balls import horner
 from singsym.certificates.checker.polynomials import Rejected, polynomial, rational, remainder
 from singsym.certificates.checker.ranks import Defects, is_possible, types_of
 from singsym.certificates.checker.sets import MATRICES, RealSet, Statement, listed, named, power
@@ -43,13 +42,13 @@ def points(at: RealSet, about: Statement, line: Mapping[str, Any]) -> list[Found
 
 def chart_of(at: RealSet, line: Mapping[str, Any]) -> tuple[Chart, fmpq_poly]:
     """All zeros of the equations of a set, and the polynomial of their roots; raises `Rejected`."""
-    form, minimal = polynomial(line.get("form", ""), at.context), _univariate(listed(line, "minimal", str))
+    form, minimal = polynomial(line.get("form", ""), at.context), _univariate(line, "minimal")
     if minimal.degree() < 1 or minimal.gcd(minimal.derivative()).degree() > 0:
         raise Rejected("minimal: expected a polynomial of positive degree without double roots")
     given = named(line, "coordinates")
     if set(given) != set(at.variables):
         raise Rejected(f"coordinates: expected one for each of {list(at.variables)}")
-    coordinates = {name: _univariate(given[name]) % minimal for name in at.variables}
+    coordinates = {name: _univariate(given, name) % minimal for name in at.variables}
     chart, there = Chart(at, minimal, coordinates), minimal
     _check_all(chart, form, power(line))
     if (chart.value(form, minimal) - fmpq_poly([0, 1]) * minimal.derivative() ** degree(form)) % minimal:
@@ -59,10 +58,8 @@ def chart_of(at: RealSet, line: Mapping[str, Any]) -> tuple[Chart, fmpq_poly]:
     return chart, there
 
 
-def _univariate(texts: Any) -> fmpq_poly:
-    if not isinstance(texts, list):
-        raise Rejected(f"expected a list of rationals, got {str(texts)[:80]}")
-    return fmpq_poly([rational(text) for text in texts])
+def _univariate(data: Mapping[str, Any], key: str) -> fmpq_poly:
+    return fmpq_poly([rational(text) for text in listed(data, key, str)])
 
 
 def _check_all(chart: Chart, form: fmpq_mpoly, exponent: int) -> None:
@@ -113,7 +110,7 @@ class Chart:
                         before = powers[i, k - 1] if k > 1 else fmpq_poly([1])
                         powers[i, k] = (before * self.images[i]) % modulus
                 if e:
-                    term = (term * powers[i, e]) % modulus
+                    term = term * powers[i, e]
             total = total + term
         return total % modulus
 
@@ -132,7 +129,7 @@ class Chart:
         while bits <= MOST_BITS:
             with ctx.workprec(bits):
                 roots = real_roots(factor)
-                decided = [[horner(value.coeffs(), root).sgn() for value in signs] for root in roots]
+                decided = [[arb_poly(value)(root).sgn() for value in signs] for root in roots]
             if all(sign.is_exact() for own in decided for sign in own):
                 return sum(all(sign > 0 for sign in own) for own in decided)
             bits *= 2
@@ -140,7 +137,7 @@ class Chart:
 
     def balls(self, there: fmpq_poly) -> list[list[arb]]:
         """Balls around the points of the real roots of a polynomial without double roots."""
-        values = [[horner(f.coeffs(), root) for f in self.images] for root in real_roots(there)]
+        values = [[arb_poly(f)(root) for f in self.images] for root in real_roots(there)]
         return [[value / below for value in own] for *own, below in values]
 
 
@@ -153,28 +150,30 @@ def real_roots(factor: fmpq_poly) -> list[arb]:
 def _defects(chart: Chart, about: Statement, factor: fmpq_poly) -> Defects:
     """The defects at the roots of an irreducible polynomial, one of them real, which are all alike."""
     at = chart.at
-    even = degree(*(entry for row in at.matrix for entry in row))
-    values = [[chart.value(entry, factor, even) for entry in row] for row in at.matrix]
-    found = []
-    for name in MATRICES:
+    values = [[chart.value(entry, factor, degree(*row)) for entry in row] for row in at.matrix]
+    ranks: dict[str, int] = {}
+    for name in reversed(MATRICES):
         columns = at.columns_of(name)
-        rank = _rank([[row[j] for j in columns] for row in values], factor)
-        found.append(about.full_rank(name) - at.eliminated - rank)
-    delta, p, inputs, outputs = found
+        # L has all columns, and is looked at last
+        full = name == "L" and len(values) in ranks.values()
+        ranks[name] = (
+            len(values) if full else rank_over([[row[j] for j in columns] for row in values], factor)
+        )
+    delta, p, inputs, outputs = found = [about.full_rank(m) - at.eliminated - ranks[m] for m in MATRICES]
     if min(found) < 0 or not is_possible((delta, p, inputs, outputs), about.n):
         raise Rejected(f"defects {found} at a point: N and n are not those of L")
     return delta, p, inputs, outputs
 
 
-def _rank(rows: Sequence[Sequence[fmpq_poly]], factor: fmpq_poly) -> int:
-    """The rank over the field Q[u]/(factor), by elimination."""
-    left, rank = [list(row) for row in rows], 0
-    for j in range(len(rows[0]) if rows else 0):
-        k = next((k for k, row in enumerate(left) if row[j]), None)
-        if k is not None:
-            pivot = left.pop(k)
-            inverse = pivot[j].xgcd(factor)[1]
-            unit = [entry * inverse % factor for entry in pivot]
-            left = [[(a - row[j] * b) % factor for a, b in zip(row, unit, strict=True)] for row in left]
-            rank += 1
+def rank_over(rows: Sequence[Sequence[fmpq_poly]], factor: fmpq_poly) -> int:
+    """The rank over the field Q[u]/(factor), by elimination in Q[u] that leaves minors (Bareiss)."""
+    left, rank, before = rows, 0, fmpq_poly([1])
+    while place := next(
+        ((i, j) for i, row in enumerate(left) for j, e in enumerate(row) if e % factor), None
+    ):
+        k, j = place
+        pivot, others = left[k], [row for i, row in enumerate(left) if i != k]
+        columns = [c for c in range(len(pivot)) if c != j]
+        left = [[(pivot[j] * row[c] - row[j] * pivot[c]) // before for c in columns] for row in others]
+        before, rank = pivot[j], rank + 1
     return rank

@@ -80,7 +80,7 @@ def _rank(at: RealSet, rows: Rows, item: Mapping[str, Any], low: int, high: int)
     """
     if "below" in item:
         size = whole_number(item, "below")
-        if size < 1 or not all(not minor for minor in _minors(at, rows, size)):
+        if size < 1 or any(_minors(at, rows, size)):
             raise Rejected(f"not all {size}-minors are seen to vanish")
         return low, min(high, size - 1)
     own_rows, own_columns = listed(item, "rows"), listed(item, "columns")
@@ -111,5 +111,4 @@ def _minors(at: RealSet, rows: Rows, size: int) -> Iterator[fmpq_mpoly]:
     choices = list(product(combinations(range(len(rows)), size), combinations(range(width), size)))
     if len(choices) > MOST_MINORS:
         raise Rejected(f"there are {len(choices)} minors of size {size}: at most {MOST_MINORS} are looked at")
-    for own, columns in choices:
-        yield _minor(at, rows, own, columns)
+    return (_minor(at, rows, own, columns) for own, columns in choices)

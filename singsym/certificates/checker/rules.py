@@ -75,9 +75,9 @@ def derive(at: RealSet, line: Line) -> tuple[RealSet, ...]:
 def cancel(at: RealSet, line: Line) -> tuple[RealSet, ...]:
     """One more equation, of which a power times units is in the ideal of those there are."""
     f = polynomial(line.get("polynomial", ""), at.context)
-    product = unit_product(at, line)
-    for _ in range(power(line)):
-        product = remainder(product * f, at.equations)
+    product, units = at.context.constant(1), chosen(at.units, listed(line, "units"), "unit")
+    for factor in (*units, *[f] * power(line)):
+        product = remainder(product * factor, at.equations)
     if product:
         raise Rejected("the product is not seen to be in the ideal")
     return (at.within([f]),)

@@ -45,6 +45,11 @@ class RealSet:
         """The names of the coordinates."""
         return tuple(self.context.names())
 
+    @property
+    def inequalities(self) -> tuple[fmpq_mpoly, ...]:
+        """What is positive or not negative."""
+        return *self.positive, *self.nonnegative
+
     def within(self, more: Sequence[fmpq_mpoly]) -> RealSet:
         """The part where more polynomials vanish."""
         return replace(self, equations=(*self.equations, *more), generators=(*self.generators, *more))

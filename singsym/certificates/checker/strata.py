@@ -67,7 +67,7 @@ def dimension_below(at: RealSet, point: Mapping[str, Any]) -> int:
         box = _box(at, equations, fixed, centre, rational(point.get("radius", "")))
         if not all(is_off_zero(unit, box) for unit in at.units):
             raise Rejected("a unit may vanish in the box")
-        if not all(Compiled(p).at(box) > 0 for p in (*at.positive, *at.nonnegative)):
+        if not all(Compiled(p).at(box) > 0 for p in at.inequalities):
             raise Rejected("an inequality is not seen to be strict in the box")
         if not is_off_zero(implied(at, point), box):
             raise Rejected("local: it may vanish in the box")

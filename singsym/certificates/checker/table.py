@@ -114,28 +114,24 @@ def _pieces(curves: Sequence[Finding], own: Sequence[tuple[int, ...]]) -> int | 
     return len({*piece.values()})
 
 
-def claimed_rows(data: Any) -> tuple[Row, ...]:
+def claimed_rows(header: Mapping[str, Any]) -> tuple[Row, ...]:
     """The rows that a certificate says it proves; raises `Rejected`."""
-    if not isinstance(data, list) or not data:
-        raise Rejected("claims: expected a list of rows")
-    return tuple(map(_claimed, data))
+    return tuple(map(_claimed, listed(header, "claims", dict)))
 
 
-def _claimed(entry: Any) -> Row:
-    if not isinstance(entry, Mapping) or not isinstance(entry.get("types"), str):
+def _claimed(entry: Mapping[str, Any]) -> Row:
+    if not isinstance(entry.get("types"), str):
         raise Rejected(f"claims: expected rows with types, got {str(entry)[:80]}")
     occurs = entry.get("occurs")
-    dimension, points, components = numbers = [
-        entry.get(key) for key in ("dimension", "points", "components")
-    ]
-    if occurs not in (True, False, None) or not all(k is None or type(k) is int for k in numbers):
+    numbers = {key: entry.get(key) for key in ("dimension", "points", "components")}
+    if occurs not in (True, False, None) or not all(k is None or type(k) is int for k in numbers.values()):
         raise Rejected(f"claims: expected true or false, and numbers, got {str(entry)[:80]}")
     groups = [listed({"together": own}, "together", list) for own in listed(entry, "together", list, [])]
     together = tuple(tuple(map(tuple, own)) for own in groups)
     loops = [*chain(*together)]
     if any(type(k) is not int for k in chain(*loops)) or len({*loops}) < len(loops):
         raise Rejected(f"claims: expected each loop once, [line, place], got {str(together)[:80]}")
-    return Row(entry["types"], occurs, dimension, points, components, together)
+    return Row(entry["types"], occurs, **numbers, together=together)
 
 
 def contradicted(claim: Row, proven: Row) -> bool:
@@ -155,13 +151,8 @@ def unproven(claim: Row, proven: Row) -> list[str]:
     return found
 
 
-def _pairs(claim: Row, proven: Row) -> tuple[tuple[str, Any, Any], ...]:
-    whether = ("occurrence", claim.occurs, proven.occurs)
-    if claim.occurs is False:
-        return (whether,)
-    return (
-        whether,
-        ("dimension", claim.dimension, proven.dimension),
-        ("number of points", claim.points, proven.points),
-        ("number of components", claim.components, proven.components),
-    )
+def _pairs(claim: Row, proven: Row) -> list[tuple[str, Any, Any]]:
+    words = {"occurs": "occurrence", "dimension": "dimension"}
+    words |= {key: f"number of {key}" for key in ("points", "components")}
+    keys = ("occurs",) if claim.occurs is False else words
+    return [(words[key], getattr(claim, key), getattr(proven, key)) for key in keys]

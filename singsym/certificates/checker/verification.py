@@ -77,7 +77,7 @@ def verify(path: str | Path) -> Verification:
     try:
         if header.get("format") != FORMAT or not isinstance(header.get("name"), str):
             raise Rejected(f"expected a file of the format {FORMAT!r}")
-        claims = claimed_rows(header.get("claims"))
+        claims = claimed_rows(header)
         number = 2
         about = statement(data)
         proof = _Proof(about)

@@ -62,20 +62,32 @@ def point_leaf(at: RealSet, near: Sequence[Sequence[float]]) -> tuple[dict[str, 
 
 
 def _starts(at: RealSet, near: Sequence[Sequence[float]]) -> Iterator[Sequence[float]]:
+    system = _system(at)
+    yield from (point for point in near if _seems_in(system, point))
+    yield from numerical_points(system)
+
+
+def seems_in(at: RealSet, points: Sequence[Sequence[float]]) -> bool:
+    """Whether one of some numerical points seems to be of a set."""
+    system = _system(at)
+    return any(_seems_in(system, point) for point in points)
+
+
+def _system(at: RealSet) -> RealSystem:
     own = Ring(at.variables)
 
     def raised(polynomials: Sequence[fmpq_mpoly]) -> tuple[Polynomial, ...]:
         return tuple(Polynomial(own, p) for p in polynomials)
 
-    equations = raised([e for e in at.equations if e])
     exclusions = tuple((p,) for p in raised(at.units))
-    positive, nonnegative = raised(at.positive), raised(at.nonnegative)
-    for point in near:
-        small = all(abs(e.evaluate(point)) < 1e-6 * _largest(e, point) for e in equations)
-        off = all(is_off(unit, point) for unit in at.units)
-        if small and off and all(p.evaluate(point) > 0 for p in (*positive, *nonnegative)):
-            yield point
-    yield from numerical_points(RealSystem(own, equations, exclusions, positive, nonnegative))
+    equations = raised([e for e in at.equations if e])
+    return RealSystem(own, equations, exclusions, raised(at.positive), raised(at.nonnegative))
+
+
+def _seems_in(system: RealSystem, point: Sequence[float]) -> bool:
+    small = all(abs(e.evaluate(point)) < 1e-6 * _largest(e, point) for e in system.equations)
+    off = all(is_off(unit.value, point) for (unit,) in system.exclusions)
+    return small and off and all(p.evaluate(point) > 0 for p in (*system.positive, *system.nonnegative))
 
 
 def _largest(f: Polynomial, point: Sequence[complex]) -> float:

@@ -57,7 +57,7 @@ def curve_leaf(at: RealSet, point: Mapping[str, Any], based: Based) -> dict[str,
     where arcs are not closed in time.
     """
     bounded = _bounded(at)
-    if bounded is None or at.positive or at.nonnegative:
+    if bounded is None:
         return None
     data = dict(point) or _some_square(at)
     if not data and len(at.generators) != len(at.variables) - 1:
@@ -70,13 +70,18 @@ def curve_leaf(at: RealSet, point: Mapping[str, Any], based: Based) -> dict[str,
         )
         if critical is None:
             return None
-        if points and not point:
+        if points and not point and not at.inequalities:
             return None
         starts = [[float(x.mid()) for x in root] for root in points]
         tracker = _Tracker(own, at)
         bad = next((start for start in starts if tracker.is_singular(start)), None)
         if bad is None:
             more = {key: data[key] for key in ("square", "implied") if data.get(key) != point.get(key)}
+            if at.inequalities:
+                signs = [all_zeros(at.within([f]), based, len(at.equations)) for f in at.inequalities]
+                if None in signs:
+                    return None
+                more["signs"] = signs
             return {"bounded": bounded, "critical": critical, "loops": _loops(tracker, points), **more}
         # another square system, that is regular there
         seen = [bad, *seen, *starts[:MOST_POINTS]]

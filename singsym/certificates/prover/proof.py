@@ -22,7 +22,7 @@ from singsym.certificates.checker.rules import derive
 from singsym.certificates.checker.sets import RealSet, Statement
 from singsym.certificates.checker.strata import dimension_above
 from singsym.certificates.checker.table import Finding
-from singsym.certificates.prover.boxes import point_leaf
+from singsym.certificates.prover.boxes import point_leaf, seems_in
 from singsym.certificates.prover.finite import points_leaf
 from singsym.certificates.prover.loops import all_zeros, curve_leaf
 from singsym.certificates.prover.traced_basis import traced_basis
@@ -161,6 +161,8 @@ class _Prover:
             if equation and equation.is_constant():
                 self.tree.leaf(node, "empty", equation=place)
                 return None
+        if seems_in(at, self.hints.points):
+            return replace(node, full=_is_based(node))
         with attempt("that a set is empty", EMPTY):
             if (found := cancelled(at.context.constant(1), at)) is not None:
                 (node,) = self.tree.apply(node, "cancel", polynomial="1", **found)

@@ -11,7 +11,7 @@ from typing import Any
 
 from flint import fmpq, fmpq_mpoly
 
-from singsym.certificates.checker.polynomials import determinant, primitive, remainder
+from singsym.certificates.checker.polynomials import Rejected, determinant, primitive, remainder
 from singsym.certificates.checker.sets import RealSet
 from singsym.effort.budget import Undecided, current
 
@@ -76,7 +76,10 @@ def _times(f: fmpq_mpoly, g: fmpq_mpoly, at: RealSet) -> fmpq_mpoly:
     current().check("what vanishes on a set for a certificate")
     if len(f) * len(g) > LONGEST_PRODUCT:
         raise Undecided("products of units are too long")
-    return remainder(f * g, at.equations)
+    try:
+        return remainder(f * g, at.equations)
+    except Rejected as error:
+        raise Undecided(f"products of units: {error}") from None
 
 
 def spellings(
