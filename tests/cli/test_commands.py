@@ -214,7 +214,13 @@ def test_cusps_and_self_motions(capsys, tmp_path):
     assert main(["at", str(arm), "--config", str(here)]) == 2
     inputs, outputs = data(capsys, "at", str(arm), "--config", str(here), "--self-motions")["self_motions"]
     assert (inputs["dimension"], outputs["dimension"], outputs["null_motions"]) == (0, 1, 1)
+    picture = tmp_path / "curve.svg"
+    drawn = ["at", str(arm), "--config", str(here), "--self-motions", "-o", str(picture)]
+    assert main(drawn) == 0
+    assert "<svg" in picture.read_text()
     here.write_text("[joints]\nA = 0.3")
+    assert main(["at", "slider-crank", "--config", str(here), "-o", str(picture)]) == 2
+    assert "found -o without --self-motions" in capsys.readouterr().err
     assert main(["at", "slider-crank", "--config", str(here), "--self-motions"]) == 3
     assert "Self-motion undecided, with the inputs at rest" in capsys.readouterr().out
 
