@@ -49,7 +49,7 @@ class Cell:
     def entries(self) -> tuple[Entry, ...]:
         """What the table of classes says here, of the classes that are not proven empty.
 
-        One entry of number 0 where there is no configuration at all.
+        One entry of number 0 where there is no configuration at all; none where there is no classification.
         """
         found = self.classification
         if found is None:
@@ -100,7 +100,7 @@ class Design:
     def open_questions(self) -> Iterator[tuple[str, str]]:
         """What is not decided, each with the reason."""
         for types, reason in self.doubts:
-            what = f"({types}) is" if types else "that there are configurations is"
+            what = f"({types}) is" if types else "there being configurations is"
             yield f"whether {what} constant over the cells", reason
         for cell in (*self.cells, *self.values):
             if cell.classification is None:
@@ -110,8 +110,8 @@ class Design:
                     yield f"{what} where {cell.where}", reason
 
     def tables(self) -> tuple[tuple[Entry, ...], ...]:
-        """The different tables of the cells, in their order."""
-        return tuple(dict.fromkeys(cell.entries for cell in self.cells))
+        """The different tables of the cells that have one, in their order."""
+        return tuple(dict.fromkeys(cell.entries for cell in self.cells if cell.classification is not None))
 
     def rows(self) -> list[dict[str, Any]]:
         """A row for each class of each cell and border value, for example for `pandas.DataFrame`."""

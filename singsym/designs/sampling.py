@@ -20,6 +20,9 @@ from singsym.effort.budget import Budget
 from singsym.effort.progress import Sink, to
 from singsym.mechanism.model import Mechanism
 
+_MUCH_MORE = 1.5
+"""A sample that is open is asked again for so many times as long."""
+
 
 @dataclass(frozen=True)
 class Sampled:
@@ -65,12 +68,26 @@ def at_samples(
     executor: Executor | None,
     cache: bool,
 ) -> list[Sampled]:
-    """The classifications at values of the parameters, in their order; they share the limits' clock."""
-    clock = None if limits.clock is None else limits.clock * workers / max(workers, len(values))
-    each = replace(limits, clock=clock)
-    tasks = [Sample(mechanism.with_parameters(**own), formulation, each, cache) for own in values]
+    """The classifications at values of the parameters, in their order; they share the limits' clock.
+
+    Each has an equal share at first.  What some leave over is for those that are open: they are asked once
+    more, as long as that gives them much more than they had.
+    """
+    chosen = [mechanism.with_parameters(**own) for own in values]
+    found, open_, had, whole = dict[int, Sampled](), list(range(len(chosen))), 0.0, Budget(limits.clock)
     with running(workers, executor, limits.clock, False) as runner:
-        return runner.map(sampled, tasks, "samples", Budget(limits.clock))
+        while open_ and not runner.interrupted:
+            left = whole.time_left()
+            share = None if left is None else left * workers / max(workers, len(open_))
+            if found and (share is None or share < _MUCH_MORE * had):
+                break
+            each = replace(limits, clock=share)
+            tasks = [Sample(chosen[i], formulation, each, cache) for i in open_]
+            for i, own in zip(open_, runner.map(sampled, tasks, "samples", Budget(left)), strict=True):
+                if own.classification is not None or i not in found:
+                    found[i] = own
+            open_, had = [i for i in open_ if found[i].provisional], share or 0.0
+    return [found[i] for i in range(len(chosen))]
 
 
 def sweep(

@@ -4,8 +4,11 @@ Source: F. Grashof, Theoretische Maschinenlehre (1883): a four-bar linkage can l
 change, only where a sum or difference of its sides vanishes; slider-cranks by right triangles.
 """
 
+from concurrent.futures import Executor, Future
+from dataclasses import replace
 from fractions import Fraction
 from itertools import product
+from types import SimpleNamespace
 
 import pytest
 
@@ -15,6 +18,7 @@ from singsym.designs.borders import borders
 from singsym.designs.families import Family, family
 from singsym.designs.plane import Plane
 from singsym.designs.real_borders import real_borders
+from singsym.designs.sampling import Sampled, at_samples
 from singsym.output.design.page import sample_text
 from singsym.polynomials import Ring
 
@@ -211,6 +215,48 @@ def test_parameters_that_cannot_be_varied():
         singsym.design(mechanism, ["a", "b", "c"])
     with pytest.raises(singsym.MechanismError, match="a value, as it is not one of those"):
         singsym.design(mechanism.with_parameters(c=None), ["a"])
+
+
+class Inline(Executor):
+    """Calls are made at once, in this process."""
+
+    def submit(self, fn, /, *args, **kwargs):
+        future = Future()
+        future.set_result(fn(*args, **kwargs))
+        return future
+
+
+def test_samples_that_are_open_have_what_others_leave_of_the_clock(monkeypatch):
+    # a third of 900 s for each at first; the one that needs 400 s is asked again, with all that is left
+    decided, asked = SimpleNamespace(undecided=False), []
+
+    def fake(sample):
+        (a,) = (p.value for p in sample.mechanism.parameters if p.name == "a")
+        asked.append((str(a), round(sample.limits.clock, -1)))
+        return Sampled(decided if str(a) != "2" or sample.limits.clock > 400 else None, "no time")
+
+    monkeypatch.setattr("singsym.designs.sampling.sampled", fake)
+    values, limits = [{"a": a} for a in (1, 2, 3)], singsym.Limits(clock=900.0)
+    found = at_samples(singsym.load("fourbar"), values, "auto", limits, 1, Inline(), False)
+    assert [own.classification for own in found] == [decided] * 3
+    assert asked == [("1", 300), ("2", 300), ("3", 300), ("2", 900)]
+
+
+def test_a_sample_without_a_classification_is_no_sample_without_singularities():
+    # in the chart too: what is open is hatched, and not white
+    found = singsym.design(singsym.load("fourbar"), ["a"], cache=False)
+    first, *others = found.cells
+    doubt = ((singsym.SingularityType.named("RI, IO"), "too long"),)
+    unsure = replace(found.borders, open=doubt)
+    partly = replace(
+        found, cells=(replace(first, classification=None, reason="no time"), *others), borders=unsure
+    )
+    said = partly.plot().description
+    assert "0 < a < 5/2: open: not classified in time" in said
+    assert "no singularity" not in said
+    assert said.endswith("not proven for whole cells: 1 kind of singularity.")
+    assert "<pattern" in partly.plot().svg()
+    assert len(partly.tables()) == len(found.tables()) - 1
 
 
 def test_a_sweep_has_a_row_for_each_class_and_sample():

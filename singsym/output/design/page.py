@@ -21,6 +21,10 @@ from singsym.output.page import Block, Grid, Page
 from singsym.output.pieces import counted
 from singsym.polynomials.latex import polynomial_latex
 
+_AT_SAMPLES = "there the table holds at the sample; it is not proven constant."
+_MOST_LISTED = 6
+"""Types in a sentence; more are counted."""
+
 
 def design_page(found: Design) -> Page:
     """The border, the cells with their tables, and what is proven of them."""
@@ -118,11 +122,13 @@ def proof_text(found: Design) -> str:
         " sample."
     )
     doubtful = dict.fromkeys(types for types, _ in found.doubts)
-    if doubtful:
+    if len(doubtful) > _MOST_LISTED:
+        said += f" Not of {len(doubtful)} classes, which are open below: {_AT_SAMPLES}"
+    elif doubtful:
         listed = ", ".join(
             f"({types})" if types else "whether there are configurations" for types in doubtful
         )
-        said += f" Not of {listed}: there the table holds at the sample; it is not proven constant."
+        said += f" Not of {listed}: {_AT_SAMPLES}"
     return said
 
 
