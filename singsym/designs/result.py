@@ -63,7 +63,8 @@ class Design:
     """How the table of classes depends on one or two parameters.
 
     dividing: the factors of the border that divide the ranges; cells: open, all of the ranges but the border;
-    values: of one parameter, the border's roots, each with a table where its degree is not too high;
+    values: of one parameter, the border's roots, each with a table where its degree is not too high; of two,
+        a point on each factor of the border between any two cells, where nothing is said of others;
     plane: of two parameters, the stacks of cells; open: what is not decided, with reasons.
     """
 
@@ -108,6 +109,10 @@ class Design:
             else:
                 for what, reason in cell.classification.open_questions():
                     yield f"{what} where {cell.where}", reason
+
+    def is_sample_only(self, cell: Cell) -> bool:
+        """Whether a cell is a part of the border of which the table of one point alone is known."""
+        return self.plane is not None and not cell.places
 
     def tables(self) -> tuple[tuple[Entry, ...], ...]:
         """The different tables of the cells that have one, in their order."""

@@ -40,8 +40,11 @@ def design_page(found: Design) -> Page:
         blocks.append(_signs(found))
     if found.values:
         blocks.append(Grid(headers, tuple(map(_row, found.values)), "On the border"))
-    elif found.dividing:
-        blocks.append("On the border itself nothing is said of the table.")
+    if found.plane is not None and found.dividing:
+        points = "each table is that of the one point given; " if found.values else ""
+        blocks.append(
+            f"On the border {points}nothing is said of its other points, nor of where borders cross."
+        )
     blocks.append(proof_text(found))
     questions = gathered(found.open_questions())
     if questions:
@@ -151,7 +154,8 @@ def design_rows(found: Design) -> list[dict[str, Any]]:
     for cell in (*found.cells, *found.values):
         own = {name: str(cell.sample.get(name, "")) for name in found.parameters}
         for row in class_rows(own, Sampled(cell.classification, cell.reason)):
-            constant = bool(cell.sample) and cell.classification is not None
+            known = bool(cell.sample) and cell.classification is not None
+            constant = known and not found.is_sample_only(cell)
             if row["types"] is not None:
                 constant = constant and found.is_constant(SingularityType.named(row["types"]))
             elif found.doubts:
