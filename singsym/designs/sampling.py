@@ -18,7 +18,9 @@ from singsym.classes.running.runner import Runner, running
 from singsym.classes.unit_border import Border
 from singsym.effort.budget import Budget
 from singsym.effort.progress import Sink, to
+from singsym.mechanism.checks import check
 from singsym.mechanism.model import Mechanism
+from singsym.mechanism.problems import MechanismError
 
 _MUCH_MORE = 1.5
 """A sample that is open is asked again for so many times as long."""
@@ -107,7 +109,7 @@ def sweep(
     and `class`, `types`, `verdict`, `certainty`, `dimension`, `points`, `components` of a class that is not
     proven empty; a sample of which nothing is there, or that came to no end, has one row.  Nothing is said
     of values between the samples.  workers, executor, limits, cache, progress: as for `classify`.
-    Raises `MechanismError` for an unknown parameter, or for values that no mechanism can have.
+    Raises `MechanismError` for an unknown parameter, or for values outside its range.
 
     >>> from singsym.mechanism import load
     >>> rows = sweep(load("fourbar"), {"a": [1, 3]}, cache=False)
@@ -116,6 +118,10 @@ def sweep(
     """
     names = tuple(values)
     combinations = [dict(zip(names, own, strict=True)) for own in product(*values.values())]
+    # what cannot be put together has a row
+    problems = (p for own in combinations for p in check(mechanism.with_parameters(**own)))
+    if wrong := dict.fromkeys(p for p in problems if p.place.startswith("parameters.")):
+        raise MechanismError(wrong)
     with to(progress):
         found = at_samples(mechanism, combinations, formulation, limits or Limits(), workers, executor, cache)
     return [

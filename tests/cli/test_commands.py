@@ -225,6 +225,19 @@ def test_cusps_and_self_motions(capsys, tmp_path):
     assert "Self-motion undecided, with the inputs at rest" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize(
+    ("chosen", "said"),
+    [
+        (["--parameters", ","], "found --parameters ','; expected one or two names, as --parameters a,b"),
+        (["--values", "a=1", "--values", "a=2"], "found --values a twice; expected all in one"),
+        (["--values", "a=-1"], "found the value -1; expected a value above 0"),
+    ],
+)
+def test_what_a_design_cannot_vary_is_said(capsys, chosen, said):
+    assert main(["design", "fourbar", *chosen, "--quiet"]) == 2
+    assert said in capsys.readouterr().err
+
+
 def test_set_changes_a_parameter_within_its_range(capsys):
     assert data(capsys, "show", "zlatanov-hybrid", "--set", "a=3/2")["parameters"] == []
     for setting in ("a=3", "b=1", "a", "a=__import__('os')"):

@@ -285,3 +285,9 @@ def test_a_sample_without_a_classification_is_no_sample_without_singularities():
 def test_a_sweep_has_a_row_for_each_class_and_sample():
     rows = singsym.sweep(singsym.load("fourbar"), {"a": [1, 20], "b": ["7/2"]}, cache=False)
     assert [(row["a"], row["class"], row["verdict"]) for row in rows] == [("1", 1, "yes"), ("20", None, "no")]
+
+
+def test_a_sweep_stays_within_ranges():
+    # a = 0 above 0 is none: the crank would be a point, and every turn of it a configuration
+    with pytest.raises(singsym.MechanismError, match=r"the value -1; expected a value above 0\n.* 0;"):
+        singsym.sweep(singsym.load("fourbar"), {"a": [-1, 0, 1]}, cache=False)
