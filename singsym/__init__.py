@@ -81,6 +81,7 @@ if TYPE_CHECKING:
     from singsym.motion.trajectory import Trajectory
     from singsym.output.figures.figure import plot_configuration, plot_mechanism
     from singsym.output.figures.regions import plot_regions
+    from singsym.output.figures.self_motions import plot_self_motions
     from singsym.output.figures.style import Picture
     from singsym.output.motion.follow_page import plot_margins
     from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
@@ -136,6 +137,7 @@ _HOMES = {
     "singsym.motion.trajectory": "Trajectory",
     "singsym.output.figures.figure": "plot_configuration plot_mechanism",
     "singsym.output.figures.regions": "plot_regions",
+    "singsym.output.figures.self_motions": "plot_self_motions",
     "singsym.output.figures.style": "Picture",
     "singsym.output.motion.follow_page": "plot_margins",
     "singsym.polynomials": "Polynomial PolynomialMatrix Ring",
@@ -258,6 +260,7 @@ __all__ = [
     "plot_margins",
     "plot_mechanism",
     "plot_regions",
+    "plot_self_motions",
     "real_curve",
     "reduce",
     "redundant_chain",

@@ -45,7 +45,11 @@ def run_design(chosen: argparse.Namespace) -> int:
 def _designed(mechanism: Mechanism, chosen: argparse.Namespace, work: dict[str, Any]) -> int:
     from singsym.designs.design import design
 
-    found = design(mechanism, [name.strip() for name in chosen.parameters.split(",")], **work)
+    names = [name.strip() for name in chosen.parameters.split(",")]
+    if not all(names):
+        given = f"found --parameters {chosen.parameters!r}"
+        raise UserError(f"{given}; expected one or two names, as --parameters a,b")
+    found = design(mechanism, names, **work)
     if chosen.output:
         found.plot().save(chosen.output)
         say(f"written: {chosen.output}")
@@ -75,6 +79,10 @@ def _swept(mechanism: Mechanism, chosen: argparse.Namespace, work: dict[str, Any
     values: dict[str, list[str]] = {}
     for text in chosen.values:
         name, _, listed = text.partition("=")
+        if name.strip() in values:
+            raise UserError(
+                f"found --values {name.strip()} twice; expected all in one, as --values a=1,3/2,2"
+            )
         values[name.strip()] = [value.strip() for value in listed.split(",") if value.strip()]
         if not values[name.strip()]:
             raise UserError(f"found --values {text}; expected NAME=VALUES, as --values a=1,3/2,2")

@@ -114,15 +114,23 @@ def _regions(mechanism: Mechanism, chosen: argparse.Namespace) -> tuple[Page, di
             say(f"written: {chosen.output}")
         return pages.regions_page(name, every), pages.regions_data(name, every), every.verdict.is_yes
     one = _examined(mechanism, chosen, chosen.start)
+    notes = [f"{chosen.start}: {remark}" for remark in one.remarks]
     if not chosen.target:
         from singsym.motion.regions.free_box import free_box
 
         box = free_box(one)
-        return pages.box_page(name, box), pages.box_data(name, box), True
-    from singsym.motion.regions.joined import joined
+        page, data, is_decided = pages.box_page(name, box), pages.box_data(name, box), True
+    else:
+        from singsym.motion.regions.joined import joined
 
-    found = joined(one, _examined(mechanism, chosen, chosen.target))
-    return pages.joined_page(name, found), pages.joined_data(name, found), not found.verdict.is_undecided
+        other = _examined(mechanism, chosen, chosen.target)
+        notes += [f"{chosen.target}: {remark}" for remark in other.remarks]
+        found = joined(one, other)
+        page, data = pages.joined_page(name, found), pages.joined_data(name, found)
+        is_decided = not found.verdict.is_undecided
+    if notes:
+        page, data = (*page, "\n".join(f"Note: {note}." for note in notes)), {**data, "notes": notes}
+    return page, data, is_decided
 
 
 def _examined(mechanism: Mechanism, chosen: argparse.Namespace, file: str) -> Analysis:

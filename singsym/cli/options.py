@@ -205,6 +205,9 @@ def configuration(command: argparse.ArgumentParser) -> None:
         action="store_true",
         help="whether null motions are finite, the inputs or the outputs at rest; the chain may be redundant",
     )
+    command.add_argument(
+        "-o", "--output", metavar="FILE", help="a picture of the curves to write, of --self-motions"
+    )
 
 
 def trajectory(command: argparse.ArgumentParser) -> None:

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 from singsym.cli.mechanisms import complaint, placed, read
-from singsym.cli.screen import UserError, emit_data, emit_latex, emit_page, writable
+from singsym.cli.screen import UserError, drawable, emit_data, emit_latex, emit_page, say, writable
 from singsym.mechanism import Mechanism, MechanismError
 from singsym.mechanism.choices import is_redundant
 
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from concurrent.futures import Executor
 
     from singsym.classes.classify import Limits
+    from singsym.classes.configuration.self_motions import SelfMotion
     from singsym.classes.result import Classification
     from singsym.classes.solve import Solution
     from singsym.output.page import Block
@@ -234,6 +235,17 @@ def resumable(chosen: argparse.Namespace) -> None:
         chosen.on_interrupt = "; finished parts are kept: the same command goes on from there"
 
 
+def _draw_self_motions(motions: Sequence[SelfMotion], file: str) -> None:
+    from singsym.output.figures.self_motions import plot_self_motions
+
+    try:
+        picture = plot_self_motions(motions)
+    except ValueError as reason:
+        raise UserError(f"{file} is not written: {reason}") from None
+    picture.save(file)
+    say(f"written: {file}")
+
+
 def run_at(chosen: argparse.Namespace) -> int:
     """`singsym at MECHANISM --config FILE`; of a redundant chain its self-motions alone."""
     mechanism = read(chosen, redundant=chosen.self_motions)
@@ -260,6 +272,10 @@ def _examined(mechanism: Mechanism, chosen: argparse.Namespace) -> int:
     how = {"formulation": chosen.formulation, "file": chosen.config}
     page: list[Block] = []
     data: dict[str, Any] = {"mechanism": mechanism.name}
+    if chosen.output:
+        if not chosen.self_motions:
+            raise UserError("found -o without --self-motions; expected both: the picture is of their curves")
+        drawable(Path(chosen.output))
     is_open = False
     if not is_redundant(mechanism):
         found = at(mechanism, given, tolerance=chosen.tolerance, **how)
@@ -273,6 +289,8 @@ def _examined(mechanism: Mechanism, chosen: argparse.Namespace) -> int:
         motions = self_motions(mechanism, given, **how)
         page += self_motion_page(motions)
         data["self_motions"] = self_motion_data(motions)
+        if chosen.output:
+            _draw_self_motions(motions, chosen.output)
         is_open = is_open or any(m.dimension is None for m in motions)
     if chosen.format == "json":
         emit_data(data)

@@ -77,7 +77,7 @@ def borders(family: Family, seconds: float | None = 60.0) -> Borders:
     """The borders of all strata; seconds: of work for each of them.
 
     Of the regular configurations only whether there are any, as of all configurations together.
-    What comes to no end is open for the types of its stratum.
+    What comes to no end is open for the types of its stratum; what was found of it before is a border.
     """
     known = family.exploration
     premises = Premises(known.certainty, "modular" if known.modular else "proven")
@@ -87,12 +87,13 @@ def borders(family: Family, seconds: float | None = 60.0) -> Borders:
     bounded = _is_bounded(family)
     walls: list[tuple[SingularityType, _Wall]] = []
     for part in known.found:
-        types = part.stratum.defects.types
+        types, own = part.stratum.defects.types, _Walls(family, premises, bounded)
         try:
             with current().part(seconds):
-                walls += [(types, wall) for wall in _Walls(family, premises, bounded).of(part)]
+                own.find(part)
         except Undecided as reason:
             doubts[types, str(reason)] = None
+        walls += [(types, wall) for wall in own.found]
     return Borders(_parts(walls), tuple(doubts), premises.certainty)
 
 
@@ -123,64 +124,72 @@ def _is_bounded(family: Family) -> bool:
     return bool(quadrics) and is_bounded(quadrics)
 
 
-@dataclass(frozen=True)
+@dataclass
 class _Walls:
-    """What is projected of a stratum; every method raises `Undecided`."""
+    """What is projected of a stratum; every method raises `Undecided`.
+
+    found: the walls so far; they are walls also where no end is come to.
+    """
 
     family: Family
     premises: Premises
     bounded: bool
+    found: list[_Wall] = field(default_factory=list)
 
-    def of(self, found: Found) -> list[_Wall]:
+    def find(self, part: Found) -> None:
         """The walls of a stratum: as one set, or else of its components.
 
         Lemma: images that it stands for have the same walls.  Where two of them meet, so do it and an image,
         for the images are closed under composition.
         """
-        stratum = found.stratum
+        stratum = part.stratum
         removed, images = [*self.family.space.exclusions], list[Equations]()
         if stratum.defects.types:
             removed += [*stratum.loci, *stratum.elsewhere]
-            images = [image(stratum.equations, r) for r in found.images if r != IDENTITY]
+            images = [image(stratum.equations, r) for r in part.images if r != IDENTITY]
         with attempt("a stratum as one set", share=0.5):
-            return self._as_one(stratum.equations, (*removed, *images))
-        return self._by_components(stratum.equations, removed, images)
+            self._as_one(stratum.equations, (*removed, *images))
+            return
+        as_one, self.found = self.found, []
+        try:
+            self._by_components(stratum.equations, removed, images)
+        except Undecided:
+            self.found += as_one
+            raise
 
-    def _as_one(self, equations: Equations, groups: Sequence[Equations]) -> list[_Wall]:
+    def _as_one(self, equations: Equations, groups: Sequence[Equations]) -> None:
         family = self.family
         whole = Bundle.of_equations(family.space.ring, family.others, equations)
         if whole.dimension < 0:
-            return self._wall(whole.equations, SPECIAL, "a part of it has more equations than variables")
-        return self._of_bundle(whole, groups, tuple(self._limits()))
+            self._wall(whole.equations, SPECIAL, "a part of it has more equations than variables")
+        else:
+            self._of_bundle(whole, groups, tuple(self._limits()))
 
     def _by_components(
         self, equations: Equations, removed: Sequence[Equations], images: Sequence[Equations]
-    ) -> list[_Wall]:
+    ) -> None:
         """The same of each component; one that is in what is removed is not there, one in an image is."""
         family, ring = self.family, self.family.space.ring
         single = [group[0] for group in removed if len(group) == 1]
         pieces = self.premises.take(decompose(equations, single, ring=ring))
-        there, walls = list[Component](), list[_Wall]()
+        there = list[Component]()
         for component in pieces:
             left = [self._not_zero(component, group) for group in removed]
             if not all(left):
                 continue
             if special := self._projected(component.generators, SPECIAL):
-                walls.append(special)
+                self.found.append(special)
                 continue
             limits = tuple(g for g in self._limits() if self._not_zero(component, (g,)))
             own = Bundle.of_component(component, family.others, equations)
             met = [group for other in images if (group := self._not_zero(component, other))]
-            walls += self._of_bundle(own, (*left, *met), limits)
+            self._of_bundle(own, (*left, *met), limits)
             there.append(component)
         for one, two in combinations(there, 2):
             both = (*one.generators, *two.generators)
-            walls += self._wall(both, TOGETHER, "two parts of it meet for all values of the parameters")
-        return walls
+            self._wall(both, TOGETHER, "two parts of it meet for all values of the parameters")
 
-    def _of_bundle(
-        self, bundle: Bundle, groups: Sequence[Equations], limits: Sequence[Polynomial]
-    ) -> list[_Wall]:
+    def _of_bundle(self, bundle: Bundle, groups: Sequence[Equations], limits: Sequence[Polynomial]) -> None:
         """The walls of a set that is there for almost all values of the parameters.
 
         groups: what is taken out of it, or counted with it.
@@ -188,17 +197,15 @@ class _Walls:
         if not self.bounded:
             raise Undecided("the configurations are not proven bounded by sums of squares")
         singular = "a part of it is singular for all values of the parameters"
-        walls = list[_Wall]()
         for fold in bundle.folds():
-            (wall,) = self._wall(fold, TOGETHER, singular)
-            walls.append(replace(wall, equations=tuple(dict.fromkeys((*bundle.equations, *fold)))))
+            whole = tuple(dict.fromkeys((*bundle.equations, *fold)))
+            self._wall(fold, TOGETHER, singular, whole)
         for face in bundle.faces(limits):
-            walls += self._wall(face, LIMIT, "limits do not cut a part of it across for any values")
+            self._wall(face, LIMIT, "limits do not cut a part of it across for any values")
         for group in groups:
-            walls += self._off(bundle, group, limits)
-        return walls
+            self._off(bundle, group, limits)
 
-    def _off(self, bundle: Bundle, group: Equations, limits: Sequence[Polynomial]) -> list[_Wall]:
+    def _off(self, bundle: Bundle, group: Equations, limits: Sequence[Polynomial]) -> None:
         """Where a group may vanish on an open part of a fibre."""
         sets: Iterator[Equations] = iter((bundle.touches(group),))
         if bundle.dimension and not limits:
@@ -206,7 +213,7 @@ class _Walls:
         found = next(filter(None, (self._projected(own, MEETS) for own in sets)), None)
         if found is None:
             raise Undecided("a part of it was not seen to lie outside another class")
-        return [found]
+        self.found.append(found)
 
     def _limits(self) -> Iterator[Polynomial]:
         """Limits of configurations, not those of parameters."""
@@ -217,11 +224,14 @@ class _Walls:
         """Those of some polynomials that do not vanish on all of a component."""
         return tuple(p for p in group if not self.premises.take(component.vanishes(p)))
 
-    def _wall(self, equations: Equations, reason: str, otherwise: str) -> list[_Wall]:
+    def _wall(
+        self, equations: Equations, reason: str, otherwise: str, whole: Equations | None = None
+    ) -> None:
+        """A set that is projected; whole: a part of it that has all of what changes."""
         found = self._projected(equations, reason)
         if found is None:
             raise Undecided(otherwise)
-        return [found]
+        self.found.append(found if whole is None else replace(found, equations=whole))
 
     def _projected(self, equations: Equations, reason: str) -> _Wall | None:
         """A set with a polynomial in the parameters that vanishes on it; None where only zero does."""

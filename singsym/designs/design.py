@@ -5,7 +5,7 @@ Source: borders as in `designs.borders`; cells as in `designs.line` and `designs
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -19,7 +19,7 @@ from singsym.classes.running.runner import running
 from singsym.designs.borders import Borders, borders
 from singsym.designs.families import Family, family
 from singsym.designs.line import Root, roots, samples
-from singsym.designs.plane import Plane, signs
+from singsym.designs.plane import Arc, Place, Plane, signs
 from singsym.designs.real_borders import real_borders
 from singsym.designs.result import Cell, Design
 from singsym.designs.sampling import at_samples
@@ -29,7 +29,7 @@ from singsym.effort.progress import Sink, to
 from singsym.elimination.ideal import Ideal
 from singsym.mechanism.model import Mechanism
 from singsym.mechanism.problems import MechanismError, Problem
-from singsym.polynomials import Polynomial
+from singsym.polynomials import Polynomial, Ring
 
 _SEARCH, _BORDERS = 0.3, 0.3
 """Of the clock for the strata, and of what is left then for the borders."""
@@ -101,7 +101,7 @@ def _share(clock: float | None, part: float) -> float | None:
 def _check(mechanism: Mechanism, names: tuple[str, ...]) -> None:
     if not 1 <= len(names) <= 2:
         found = ", ".join(names) or "none"
-        expected = "one or two parameters; of more, singsym.sweep takes samples"
+        expected = "one or two parameters; of more, samples: --values, or singsym.sweep"
         raise MechanismError([Problem("parameters", found, expected, file=mechanism.origin)])
     others = [p.name for p in mechanism.parameters if p.value is None and p.name not in names]
     if others:
@@ -197,7 +197,37 @@ def _plane(found: Family, border: Borders, names: tuple[str, str]) -> _Parts:
         )
         for number, ((places, sample), row) in enumerate(zip(chosen, found_signs, strict=True), 1)
     )
-    return _Parts(cells, (), frozenset(own[k] for k in dividing), plane)
+    numbers = {place: number for number, (places, _) in enumerate(chosen, 1) for place in places}
+    values = tuple(_arcs(plane, frozenset(own[k] for k in dividing), numbers, found.space.ring))
+    return _Parts(cells, values, frozenset(own[k] for k in dividing), plane)
+
+
+def _arcs(
+    plane: Plane, dividing: frozenset[Polynomial], numbers: Mapping[Place, int], ring: Ring
+) -> Iterator[Cell]:
+    """A point of each factor of the border between any two cells, the simplest ones."""
+    simplest: dict[tuple[Polynomial, tuple[int, ...]], Arc] = {}
+    for arc in plane.arcs():
+        if arc.curve in dividing and all(side in numbers for side in arc.sides):
+            between = tuple(sorted({numbers[side] for side in arc.sides}))
+            known = simplest.setdefault((arc.curve, between), arc)
+            if _plainness(arc) < _plainness(known):
+                simplest[arc.curve, between] = arc
+    for (curve, between), arc in simplest.items():
+        listed = (
+            f"between cells {between[0]} and {between[1]}" if len(between) > 1 else f"in cell {between[0]}"
+        )
+        where, x, y = f"{curve} = 0 {listed}", *arc.point
+        if x is None or y is None or (ring.constants and arc.degree > 2):
+            reason = f"its simplest point is a root of degree {arc.degree}, which is not put in"
+            yield Cell({}, where, None, reason)
+        else:
+            yield Cell(dict(zip(plane.names, (x, y), strict=True)), where, None)
+
+
+def _plainness(arc: Arc) -> tuple[int, int]:
+    """Points of low degree with short numbers first."""
+    return arc.degree, sum(len(str(x)) for x in arc.point)
 
 
 def _length(sample: dict[str, Any]) -> tuple[int, Fraction]:

@@ -17,6 +17,7 @@ from itertools import combinations, pairwise
 
 import networkx
 import numpy as np
+import sympy
 
 from singsym.designs.line import Root, roots, samples, simple_between
 from singsym.polynomials import Polynomial
@@ -24,6 +25,20 @@ from singsym.varieties.real.bounds_of_solutions import sign_within
 
 Place = tuple[int, int]
 """A cell by its stack and its number from below."""
+
+
+@dataclass(frozen=True)
+class Arc:
+    """A part of a curve between two walls, or of an upright curve, with an exact point of it.
+
+    point: the values of both parameters, None for a root of a high degree; degree: the largest of theirs;
+    sides: the cells on both sides.
+    """
+
+    curve: Polynomial
+    point: tuple[sympy.Expr | None, sympy.Expr | None]
+    degree: int
+    sides: tuple[Place, Place]
 
 
 @dataclass(frozen=True)
@@ -59,6 +74,31 @@ class Plane:
         """Where the curves are over a value of the first parameter."""
         return roots(self._cut(self.names[0], x), self.names[1])
 
+    def arcs(self) -> Iterator[Arc]:
+        """All arcs over the intervals between walls, and those of upright curves at rational values.
+
+        >>> from singsym.polynomials import Ring
+        >>> a, b = Ring(("a", "b")).gens
+        >>> [(str(arc.curve), arc.point) for arc in Plane(("a", "b"), (a - 1, a - 2 * b)).arcs()]
+        [('a - 2*b', (0, 0)), ('a - 2*b', (2, 1)), ('a - 1', (1, 0)), ('a - 1', (1, 1))]
+        """
+        for i, (x, _) in enumerate(self.stacks):
+            for j, root in enumerate(self._over(x)):
+                curve = next(f for f in self.curves if self._is_on(f, x, root))
+                yield Arc(curve, (sympy.Rational(x), root.value), root.degree, ((i, j), (i, j + 1)))
+        for i, wall in enumerate(self.walls):
+            if wall.polynomial in self.curves and wall.low == wall.high:
+                for y in samples(self._over(wall.low)):
+                    sides = self._across(i, wall, y, [f for f in self.curves if f != wall.polynomial])
+                    if sides is not None:
+                        point = (sympy.Rational(wall.low), sympy.Rational(y))
+                        yield Arc(wall.polynomial, point, 1, sides)
+
+    def _is_on(self, curve: Polynomial, x: Fraction, root: Root) -> bool:
+        """Whether a curve goes through a point over a value of the first parameter."""
+        cut = curve.substitute({self.names[0]: x})
+        return not cut.is_constant and any(f == root.polynomial for f, _ in cut.factors())
+
     def _cut(self, name: str, value: Fraction) -> list[Polynomial]:
         return [p for f in self.curves if not (p := f.substitute({name: value})).is_constant]
 
@@ -85,15 +125,23 @@ class Plane:
 
     def _joined(self, i: int, wall: Root) -> Iterator[tuple[Place, Place]]:
         """Pairs of cells of the stacks to both sides of a wall that are one."""
+        for y in self._gaps(float(wall)):
+            sides = self._across(i, wall, y, self.curves)
+            if sides is not None:
+                yield sides
+
+    def _across(
+        self, i: int, wall: Root, y: Fraction, curves: Sequence[Polynomial]
+    ) -> tuple[Place, Place] | None:
+        """The cells at both ends of a segment across a wall that is proven to meet none of some curves."""
         low, high = wall.narrow(50)
         before, after = self.stacks[i][0], self.stacks[i + 1][0]
-        for y in self._gaps(float(wall)):
-            for part in (16, 4096, 2**24):
-                left, right = low - (low - before) / part, high + (after - high) / part
-                bounds = {self.names[0]: (left, right), self.names[1]: (y, y)}
-                if all(sign_within(f, bounds) for f in self.curves):
-                    yield (i, self._number(left, y)), (i + 1, self._number(right, y))
-                    break
+        for part in (16, 4096, 2**24):
+            left, right = low - (low - before) / part, high + (after - high) / part
+            bounds = {self.names[0]: (left, right), self.names[1]: (y, y)}
+            if all(sign_within(f, bounds) for f in curves):
+                return (i, self._number(left, y)), (i + 1, self._number(right, y))
+        return None
 
     def heights(self, x: float) -> list[float]:
         """The second parameter's values on the curves over one of the first, numerically, in order."""

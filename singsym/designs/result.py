@@ -49,7 +49,7 @@ class Cell:
     def entries(self) -> tuple[Entry, ...]:
         """What the table of classes says here, of the classes that are not proven empty.
 
-        One entry of number 0 where there is no configuration at all.
+        One entry of number 0 where there is no configuration at all; none where there is no classification.
         """
         found = self.classification
         if found is None:
@@ -63,7 +63,8 @@ class Design:
     """How the table of classes depends on one or two parameters.
 
     dividing: the factors of the border that divide the ranges; cells: open, all of the ranges but the border;
-    values: of one parameter, the border's roots, each with a table where its degree is not too high;
+    values: of one parameter, the border's roots, each with a table where its degree is not too high; of two,
+        a point on each factor of the border between any two cells, where nothing is said of others;
     plane: of two parameters, the stacks of cells; open: what is not decided, with reasons.
     """
 
@@ -100,7 +101,7 @@ class Design:
     def open_questions(self) -> Iterator[tuple[str, str]]:
         """What is not decided, each with the reason."""
         for types, reason in self.doubts:
-            what = f"({types}) is" if types else "that there are configurations is"
+            what = f"({types}) is" if types else "there being configurations is"
             yield f"whether {what} constant over the cells", reason
         for cell in (*self.cells, *self.values):
             if cell.classification is None:
@@ -109,9 +110,13 @@ class Design:
                 for what, reason in cell.classification.open_questions():
                     yield f"{what} where {cell.where}", reason
 
+    def is_sample_only(self, cell: Cell) -> bool:
+        """Whether a cell is a part of the border of which the table of one point alone is known."""
+        return self.plane is not None and not cell.places
+
     def tables(self) -> tuple[tuple[Entry, ...], ...]:
-        """The different tables of the cells, in their order."""
-        return tuple(dict.fromkeys(cell.entries for cell in self.cells))
+        """The different tables of the cells that have one, in their order."""
+        return tuple(dict.fromkeys(cell.entries for cell in self.cells if cell.classification is not None))
 
     def rows(self) -> list[dict[str, Any]]:
         """A row for each class of each cell and border value, for example for `pandas.DataFrame`."""

@@ -18,7 +18,12 @@ from singsym.classes.running.runner import Runner, running
 from singsym.classes.unit_border import Border
 from singsym.effort.budget import Budget
 from singsym.effort.progress import Sink, to
+from singsym.mechanism.checks import check
 from singsym.mechanism.model import Mechanism
+from singsym.mechanism.problems import MechanismError
+
+_MUCH_MORE = 1.5
+"""A sample that is open is asked again for so many times as long."""
 
 
 @dataclass(frozen=True)
@@ -65,12 +70,26 @@ def at_samples(
     executor: Executor | None,
     cache: bool,
 ) -> list[Sampled]:
-    """The classifications at values of the parameters, in their order; they share the limits' clock."""
-    clock = None if limits.clock is None else limits.clock * workers / max(workers, len(values))
-    each = replace(limits, clock=clock)
-    tasks = [Sample(mechanism.with_parameters(**own), formulation, each, cache) for own in values]
+    """The classifications at values of the parameters, in their order; they share the limits' clock.
+
+    Each has an equal share at first.  What some leave over is for those that are open: they are asked once
+    more, as long as that gives them much more than they had.
+    """
+    chosen = [mechanism.with_parameters(**own) for own in values]
+    found, open_, had, whole = dict[int, Sampled](), list(range(len(chosen))), 0.0, Budget(limits.clock)
     with running(workers, executor, limits.clock, False) as runner:
-        return runner.map(sampled, tasks, "samples", Budget(limits.clock))
+        while open_ and not runner.interrupted:
+            left = whole.time_left()
+            share = None if left is None else left * workers / max(workers, len(open_))
+            if found and (share is None or share < _MUCH_MORE * had):
+                break
+            each = replace(limits, clock=share)
+            tasks = [Sample(chosen[i], formulation, each, cache) for i in open_]
+            for i, own in zip(open_, runner.map(sampled, tasks, "samples", Budget(left)), strict=True):
+                if own.classification is not None or i not in found:
+                    found[i] = own
+            open_, had = [i for i in open_ if found[i].provisional], share or 0.0
+    return [found[i] for i in range(len(chosen))]
 
 
 def sweep(
@@ -90,7 +109,7 @@ def sweep(
     and `class`, `types`, `verdict`, `certainty`, `dimension`, `points`, `components` of a class that is not
     proven empty; a sample of which nothing is there, or that came to no end, has one row.  Nothing is said
     of values between the samples.  workers, executor, limits, cache, progress: as for `classify`.
-    Raises `MechanismError` for an unknown parameter, or for values that no mechanism can have.
+    Raises `MechanismError` for an unknown parameter, or for values outside its range.
 
     >>> from singsym.mechanism import load
     >>> rows = sweep(load("fourbar"), {"a": [1, 3]}, cache=False)
@@ -99,6 +118,10 @@ def sweep(
     """
     names = tuple(values)
     combinations = [dict(zip(names, own, strict=True)) for own in product(*values.values())]
+    # what cannot be put together has a row
+    problems = (p for own in combinations for p in check(mechanism.with_parameters(**own)))
+    if wrong := dict.fromkeys(p for p in problems if p.place.startswith("parameters.")):
+        raise MechanismError(wrong)
     with to(progress):
         found = at_samples(mechanism, combinations, formulation, limits or Limits(), workers, executor, cache)
     return [

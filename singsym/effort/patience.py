@@ -93,7 +93,9 @@ SMOOTHNESS = Patience(5.0, "whether the space is smooth is undecided")
 
 # what holds for many configurations or dimensions together
 ARCS = Patience(120.0, "the regions of a curve are undecided")
-WALLS = Patience(20.0, "two regions with the same signs are not proven to be apart")
+WALLS = Patience(20.0, "the next plane between two regions with the same signs is tried")
+ALL_WALLS = Patience(120.0, "regions with the same signs are not proven to be apart")
+FREE_BOX = Patience(120.0, "a box that is free of singularities is not grown further")
 BORDER = Patience(20.0, "a class is not proven constant over the cells of a design")
 REAL_BORDER = Patience(8.0, "a border counts, though there may be nothing real over it")
 

@@ -152,7 +152,8 @@ def _parameters(mechanism: Mechanism) -> Iterator[Finding]:
         below = low is not None and (value - low).is_positive is False
         above = high is not None and (high - value).is_positive is False
         if p.value is not None and (below or above):
-            yield place, f"the value {value}", f"a value between {low} and {high}", ""
+            bounds = (f"{word} {b}" for word, b in (("above", low), ("below", high)) if b is not None)
+            yield place, f"the value {value}", f"a value {' and '.join(bounds)}", ""
         elif p.value is None and low is not None and high is not None and (high - low).is_positive is False:
             yield place, f"the range from {low} to {high}", "the lower bound first", ""
     symbols = {sympy.Symbol(p.name) for p in resolved.parameters}

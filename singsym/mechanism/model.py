@@ -298,7 +298,8 @@ class Mechanism:
         names = {parameter.name for parameter in self.parameters}
         unknown = [name for name in values if name not in names]
         if unknown:
-            known = f"one of {', '.join(sorted(names))}" if names else "nothing: it has no parameters"
+            none = "nothing, as it has no parameters; a dimension is one by [parameters] a = 2 and AB = 'a'"
+            known = f"one of {', '.join(sorted(names))}" if names else none
             raise MechanismError(Problem("parameters", name, known, file=self.origin) for name in unknown)
         read = {
             name: None if v is None else expression(v, names, place=f"parameters.{name}", file=self.origin)

@@ -104,7 +104,7 @@ class Continuation:
         if box is None:
             return None
         last = self.box_at(end, end, self.near(end, middle))
-        if last is None or not (box.has(first) and box.has(last)):
+        if last is None or not (box.has_configuration(first) and box.has_configuration(last)):
             return None
         return MotionPiece(start, end, box, first, last)
 
@@ -120,7 +120,7 @@ class Continuation:
         point = None if own is None else self.box_at(start, start, self.near(start, near))
         if box is None or own is None or point is None:
             return None
-        return box if own.whole.has(point) and box.has(point) else None
+        return box if own.whole.has_configuration(point) and box.has_configuration(point) else None
 
     def middle(self, at: Enclosure) -> Floats:
         """The middle of a box, numerically."""
@@ -155,8 +155,8 @@ class Continuation:
     ) -> Iterator[tuple[float, float, bool]]:
         """Spans of time in which a polynomial vanishes on a piece: start, end, and whether it surely does.
 
-        It vanishes once in a span that is sure, which is shorter than `exact`; in the others that is not
-        decided.  Nowhere else.
+        It vanishes once in a span that is sure, which is no longer than `exact` where signs can be told on
+        the way; in the others that is not decided.  Nowhere else.
         """
         if sure_sign(polynomial, piece.whole):
             return
@@ -193,13 +193,16 @@ class Continuation:
     def _bisected(
         self, piece: MotionPiece, polynomial: Polynomial, sign: int, exact: float
     ) -> tuple[float, float]:
-        """A shorter span with the change of sign inside."""
+        """A span with the change of sign inside, `exact` long at most, or as short as signs can be told.
+
+        sign: that of the polynomial at the start of the piece.
+        """
         low, high, near = piece.start, piece.end, self.middle(piece.first)
         while high - low > exact:
             middle = low + _SHARE * (high - low)
             near = self.near(middle, near)
             box = self.box_at(middle, middle, near)
-            on_it = box is not None and piece.whole.has(box)
+            on_it = box is not None and piece.whole.has_configuration(box)
             found = sure_sign(polynomial, box) if box is not None and on_it else 0
             if not found:
                 break

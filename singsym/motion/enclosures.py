@@ -64,13 +64,13 @@ class Enclosure:
         """Balls that hold all of it."""
         return self.along.hull
 
-    def covers(self, point: Enclosure) -> bool:
+    def has_values(self, point: Enclosure) -> bool:
         """Whether the values of another enclosure are among those of this one."""
         with at_precision(BITS):
             pairs = zip(self.along.spans, self._away(point), strict=False)
             return all(span.contains(away) for span, away in pairs)
 
-    def has(self, point: Enclosure) -> bool:
+    def has_configuration(self, point: Enclosure) -> bool:
         """Whether the configuration in another enclosure is on this sheet, by uniqueness.
 
         That the values there are among this one's is for the caller to know.

@@ -32,7 +32,8 @@ _DAMPING, _LEAST_DAMPING = 1e-2, 1e-12
 _PATIENCE, _PROGRESS = 10, 0.9
 # norms of the values: where steps end, and where a few more without damping are worth while
 _REACHED, _NEAR = 1e-12, 1e-4
-# of least squares: the damping at first, at least and at most, and steps that change nothing any more
+# of least squares: the damping at first, at least and at most, over the mean squared slope by a variable at
+# the start, and steps that change nothing any more
 _FIRST, _LEAST, _MOST, _ROUNDING = 1e-2, 1e-14, 1e8, 1e-15
 
 
@@ -136,17 +137,19 @@ def least_squares(system: Map, start: Floats, steps: int = 80) -> Floats:
     """Points near `start`, one or one a row, where the sum of squared values is least, if not zero.
 
     Damped steps, of which those that go up are not taken (Levenberg and Marquardt); all starts take theirs
-    together.
+    together, and the same ones whatever unit the values are in.
     """
     points, sizes = np.array(np.atleast_2d(start)), system.sizes
     values, slopes = system(points)
+    scale = np.sum((slopes * sizes) ** 2, axis=(1, 2)) / max(1, len(sizes)) + np.finfo(float).tiny
     damping, moving = np.full(len(points), _FIRST), np.arange(len(points))
     for _ in range(steps):
         if not moving.size:
             break
         slope = slopes[moving] * sizes
         turned = slope.transpose(0, 2, 1)
-        normal = turned @ slope + damping[moving, None, None] * np.eye(len(sizes))
+        damped = damping[moving] * scale[moving]
+        normal = turned @ slope + damped[:, None, None] * np.eye(len(sizes))
         step = np.linalg.solve(normal, turned @ values[moving, :, None])[..., 0]
         trial = points[moving] - sizes * step
         fresh, fresh_slopes = system(trial)

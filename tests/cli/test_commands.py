@@ -214,9 +214,28 @@ def test_cusps_and_self_motions(capsys, tmp_path):
     assert main(["at", str(arm), "--config", str(here)]) == 2
     inputs, outputs = data(capsys, "at", str(arm), "--config", str(here), "--self-motions")["self_motions"]
     assert (inputs["dimension"], outputs["dimension"], outputs["null_motions"]) == (0, 1, 1)
+    picture = tmp_path / "curve.svg"
+    drawn = ["at", str(arm), "--config", str(here), "--self-motions", "-o", str(picture)]
+    assert main(drawn) == 0
+    assert "<svg" in picture.read_text()
     here.write_text("[joints]\nA = 0.3")
+    assert main(["at", "slider-crank", "--config", str(here), "-o", str(picture)]) == 2
+    assert "found -o without --self-motions" in capsys.readouterr().err
     assert main(["at", "slider-crank", "--config", str(here), "--self-motions"]) == 3
     assert "Self-motion undecided, with the inputs at rest" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("chosen", "said"),
+    [
+        (["--parameters", ","], "found --parameters ','; expected one or two names, as --parameters a,b"),
+        (["--values", "a=1", "--values", "a=2"], "found --values a twice; expected all in one"),
+        (["--values", "a=-1"], "found the value -1; expected a value above 0"),
+    ],
+)
+def test_what_a_design_cannot_vary_is_said(capsys, chosen, said):
+    assert main(["design", "fourbar", *chosen, "--quiet"]) == 2
+    assert said in capsys.readouterr().err
 
 
 def test_set_changes_a_parameter_within_its_range(capsys):

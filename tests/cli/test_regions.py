@@ -38,3 +38,16 @@ def test_arcs_are_decided(capsys: pytest.CaptureFixture[str]) -> None:
 def test_what_is_missing_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["regions", "2r", "--to", file(tmp_path, "60 deg"), "--quiet"]) == 2
     assert "--to without --from" in capsys.readouterr().err
+
+
+def test_of_which_configuration_a_box_is_where_values_leave_many(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """One angle of two is given: the box is around one of a circle of configurations, which is said."""
+    half = tmp_path / "half.toml"
+    half.write_text('[joints]\nA = "30 deg"\n', encoding="utf-8")
+    assert main(["regions", "2r", "--from", str(half), "--quiet"]) == 0
+    note = f"{half}: the given values leave 1 freedom: one of many configurations is shown"
+    assert f"Note: {note}." in capsys.readouterr().out
+    assert main(["regions", "2r", "--from", str(half), "--format", "json", "--quiet"]) == 0
+    assert json.loads(capsys.readouterr().out)["notes"] == [note]

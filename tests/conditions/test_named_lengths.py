@@ -107,7 +107,7 @@ def test_lengths_that_are_no_rationals_keep_their_values() -> None:
 
 
 def test_without_named_lengths_nothing_is_renamed() -> None:
-    mechanism = load("zlatanov-2dof")
+    mechanism = load("pentagon")
     found = conditions(velocity_equation(mechanism))
     lengths = named_lengths(mechanism, found.equation)
     assert lengths.values == {}

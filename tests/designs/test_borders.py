@@ -11,6 +11,7 @@ from singsym.classes.strata.search import search
 from singsym.classes.strata.start import feasible_set
 from singsym.designs.borders import borders
 from singsym.designs.families import Family
+from singsym.effort.budget import Undecided
 from singsym.kinematics.placement import ConfigurationSpace
 from singsym.polynomials import Equations, Polynomial, PolynomialMatrix, Ring
 
@@ -43,3 +44,17 @@ def test_where_all_configurations_are_excluded_is_a_border():
     x, y, a = ring.gens
     found = borders(family_of((x - a, x**2 + y**2 - 1), ring.one, x))
     assert {str(part.polynomial) for part in found.parts} == {"a", "a - 1", "a + 1"}
+
+
+def test_walls_that_were_found_before_a_stratum_came_to_no_end_are_borders(monkeypatch):
+    # x^2 = a - 1 on a circle: its folds are a = 1 and a = 2, where x = 0 and y = 0; exclusions come last
+    ring = Ring(("x", "y", "a"))
+    x, y, a = ring.gens
+
+    def withheld(*_: object) -> None:
+        raise Undecided("withheld")
+
+    monkeypatch.setattr("singsym.designs.borders._Walls._off", withheld)
+    found = borders(family_of((x**2 - a + 1, x**2 + y**2 - 1), ring.one, y - 3))
+    assert {str(part.polynomial) for part in found.parts} == {"a - 1", "a - 2"}
+    assert "withheld" in {reason for _, reason in found.open}

@@ -4,8 +4,12 @@ Source: F. Grashof, Theoretische Maschinenlehre (1883): a four-bar linkage can l
 change, only where a sum or difference of its sides vanishes; slider-cranks by right triangles.
 """
 
+from concurrent.futures import Executor, Future
+from dataclasses import replace
 from fractions import Fraction
 from itertools import product
+from math import hypot, sqrt
+from types import SimpleNamespace
 
 import pytest
 
@@ -15,6 +19,7 @@ from singsym.designs.borders import borders
 from singsym.designs.families import Family, family
 from singsym.designs.plane import Plane
 from singsym.designs.real_borders import real_borders
+from singsym.designs.sampling import Sampled, at_samples
 from singsym.output.design.page import sample_text
 from singsym.polynomials import Ring
 
@@ -87,6 +92,17 @@ def test_each_cell_of_a_four_bar_has_the_table_that_triangles_give():
         points = {number: count for number, _, _, count, _ in cell.entries}
         assert points == ({0: None} if expected is None else expected)
         tables.add(cell.entries)
+    # between two cells it can lie flat in one way, and has the other triangles too.  With d = a - b these are
+    # a + b = 2; a + b = 4 with d < -2, between and d > 2; d = +-2 with a + b < 4 and > 4; d = +-4
+    assert len(found.values) == 1 + 3 + 2 * 2 + 2
+    for cell in found.values:
+        a, b = (Fraction(str(cell.sample[name])) for name in ("a", "b"))
+        assert {name: count for name, _, _, count, _ in cell.entries} == {
+            **(grashof(Fraction(1), a, b, Fraction(3)) or {}),
+            8: 1,
+        }
+        assert " = 0 between cells " in cell.where
+    assert {row["constant"] for row in found.rows() if "between" in row["where"]} == {False}
     # double rocker by the coupler, crank-rocker, drag link, the two triple rockers' table, not put together
     assert len(tables) == 5
     assert len({cell.signs for cell in found.cells}) == len(found.cells)
@@ -124,31 +140,6 @@ def test_what_limits_cut_is_a_border():
     assert [(cell.where, cell.entries[0][3]) for cell in found.cells] == [("0 < r < 3", 2), ("3 < r", 2)]
 
 
-TWO_DOF = """
-name = "two-dof"
-inputs = ["A", "E"]
-output = { velocity = "G" }
-[parameters]
-r = { value = 2, above = 0 }
-[links]
-ground = { points = { A = [0, 0], D = [1, 0], E = [2, 0] } }
-AB = 1
-BC = 1
-CD = 2
-CG = "3/2"
-FG = "r"
-EF = 3
-[joints]
-A = "R"
-B = "R"
-C = "R"
-D = "R"
-E = "R"
-F = "R"
-G = "R"
-"""
-
-
 @pytest.mark.engines
 def test_the_borders_of_a_five_bar_are_circles_that_touch():
     # C is l2 - l1 to l2 + l1 from A, and 1 to 5 from E, which is 1 from A: the circles about A and E touch
@@ -169,15 +160,47 @@ def test_the_borders_of_the_papers_linkage_over_one_length():
     assert not found.open
     assert found.certainty == "proven"
     mobile = singsym.SingularityType.named("RI, RO, IO, IIM")
-    r = Ring(("r",)).gens[0]
+    r = Ring(("FG",)).gens[0]
     flat = {r - Fraction(3, 2), r - Fraction(9, 2), r - Fraction(15, 2)}
     in_line = {(r + s * (3 + t * Fraction(3, 2))) ** 2 - 6 for s, t in product((1, -1), repeat=2)}
     special = {p.polynomial for p in found.parts if (mobile, "only there") in p.reasons}
     assert special == {p.primitive() for p in flat | in_line}
 
 
+def common_points(r: float) -> dict[int, int]:
+    """Points of classes 3 and 4 of the paper's linkage with FG = r, from triangles alone.
+
+    (4): B, C, D in line, so C = (0, +-sqrt(3)), or C, G, F.  (5): D, C, G, or A, B, C, so that
+    C = (1/2, +-sqrt(15)/2), or E, F, G.  With B, C, D and D, C, G in line both pairs of ends are at rest (4).
+    Where all of C, G, F, E or of D, C, G, F are in line the two B are there if |AC| < 2.
+    """
+
+    def two(side: float, one: float, other: float) -> int:
+        return 2 * (abs(one - other) < side < one + other)
+
+    four = three = 0
+    for s in (1, -1):
+        x, y = s * 3 / 4, sqrt(3) * (1 - s * 3 / 4)  # G on the line from C = (0, sqrt(3)) to D = (1, 0)
+        four += 2 * two(hypot(x - 2, y), r, 3)
+        three += 2 * two(sqrt(7), 3 / 2, abs(3 + s * r)) + 2 * two(sqrt(6), abs(3 / 2 + s * r), 3)
+        for t in (1, -1):
+            far = 2 + s * 3 / 2 + t * r  # F from D, on the circle of radius 3 about E
+            three += 4 * (2 < abs(far) < 4 and (far**2 / 2 - 4) / far < -1 / 4)
+            three += 4 * (6 < (3 + s * 3 / 2 + t * r) ** 2 < 9)  # C from E
+    return {3: three, 4: four}
+
+
+@pytest.mark.engines
+@pytest.mark.parametrize("length", ["57/64", "73/64", "17/4"])
+def test_points_of_the_papers_linkage_by_hand(length):
+    found = singsym.classify(singsym.load("zlatanov-2dof").with_parameters(FG=length), cache=False)
+    points = {c.singularity_class.number: c.points for c in found.classes if c.verdict.is_yes}
+    assert not found.undecided
+    assert {number: points.get(number, 0) for number in (3, 4)} == common_points(float(Fraction(length)))
+
+
 def two_dof() -> Family:
-    return family(singsym.loads(TWO_DOF).with_parameters(r=None), "auto", Runner())
+    return family(singsym.load("zlatanov-2dof").with_parameters(FG=None), "auto", Runner())
 
 
 def real_family(name: str, *parameters: str) -> set[str]:
@@ -207,12 +230,64 @@ def test_a_hyperbola_leaves_three_cells():
 
 def test_parameters_that_cannot_be_varied():
     mechanism = singsym.load("fourbar")
-    with pytest.raises(singsym.MechanismError, match=r"one or two parameters; of more, singsym\.sweep"):
+    with pytest.raises(singsym.MechanismError, match="one or two parameters; of more, samples: --values, or"):
         singsym.design(mechanism, ["a", "b", "c"])
+    with pytest.raises(
+        singsym.MechanismError, match="found AB; expected nothing, as it has no parameters; a dim"
+    ):
+        singsym.design(singsym.load("pentagon"), ["AB"])
     with pytest.raises(singsym.MechanismError, match="a value, as it is not one of those"):
         singsym.design(mechanism.with_parameters(c=None), ["a"])
+
+
+class Inline(Executor):
+    """Calls are made at once, in this process."""
+
+    def submit(self, fn, /, *args, **kwargs):
+        future = Future()
+        future.set_result(fn(*args, **kwargs))
+        return future
+
+
+def test_samples_that_are_open_have_what_others_leave_of_the_clock(monkeypatch):
+    # a third of 900 s for each at first; the one that needs 400 s is asked again, with all that is left
+    decided, asked = SimpleNamespace(undecided=False), []
+
+    def fake(sample):
+        (a,) = (p.value for p in sample.mechanism.parameters if p.name == "a")
+        asked.append((str(a), round(sample.limits.clock, -1)))
+        return Sampled(decided if str(a) != "2" or sample.limits.clock > 400 else None, "no time")
+
+    monkeypatch.setattr("singsym.designs.sampling.sampled", fake)
+    values, limits = [{"a": a} for a in (1, 2, 3)], singsym.Limits(clock=900.0)
+    found = at_samples(singsym.load("fourbar"), values, "auto", limits, 1, Inline(), False)
+    assert [own.classification for own in found] == [decided] * 3
+    assert asked == [("1", 300), ("2", 300), ("3", 300), ("2", 900)]
+
+
+def test_a_sample_without_a_classification_is_no_sample_without_singularities():
+    # in the chart too: what is open is hatched, and not white
+    found = singsym.design(singsym.load("fourbar"), ["a"], cache=False)
+    first, *others = found.cells
+    doubt = ((singsym.SingularityType.named("RI, IO"), "too long"),)
+    unsure = replace(found.borders, open=doubt)
+    partly = replace(
+        found, cells=(replace(first, classification=None, reason="no time"), *others), borders=unsure
+    )
+    said = partly.plot().description
+    assert "0 < a < 5/2: open: not classified in time" in said
+    assert "no singularity" not in said
+    assert said.endswith("not proven for whole cells: 1 kind of singularity.")
+    assert "<pattern" in partly.plot().svg()
+    assert len(partly.tables()) == len(found.tables()) - 1
 
 
 def test_a_sweep_has_a_row_for_each_class_and_sample():
     rows = singsym.sweep(singsym.load("fourbar"), {"a": [1, 20], "b": ["7/2"]}, cache=False)
     assert [(row["a"], row["class"], row["verdict"]) for row in rows] == [("1", 1, "yes"), ("20", None, "no")]
+
+
+def test_a_sweep_stays_within_ranges():
+    # a = 0 above 0 is none: the crank would be a point, and every turn of it a configuration
+    with pytest.raises(singsym.MechanismError, match=r"the value -1; expected a value above 0\n.* 0;"):
+        singsym.sweep(singsym.load("fourbar"), {"a": [-1, 0, 1]}, cache=False)

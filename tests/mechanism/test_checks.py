@@ -138,7 +138,7 @@ def test_outputs() -> None:
 def test_parameters() -> None:
     bare = replace(FOUR, parameters=(*FOUR.parameters, Parameter("h")))
     assert "parameters.h: found neither value nor range" in said(bare)
-    assert "the value 3; expected a value between 2*sqrt(3)/3 and 2" in said(HYBRID.with_parameters(a=3))
+    assert "the value 3; expected a value above 2*sqrt(3)/3 and below 2" in said(HYBRID.with_parameters(a=3))
     quotient = with_link(
         FOUR, "AB", lambda k: replace(k, points={**k.points, "B": (1 / sympy.Symbol("a"), 0)})
     )

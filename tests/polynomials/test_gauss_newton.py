@@ -83,6 +83,17 @@ def test_least_squares_end_where_no_zero_is(k: Fraction) -> None:
     assert end == pytest.approx(np.array([0.5, 2.0, 1.0]) * float(k), rel=1e-6)
 
 
+@pytest.mark.parametrize("power", [-40, 40])
+def test_least_squares_take_the_same_steps_in_every_unit_of_the_values(power: int) -> None:
+    """Values and their slopes times a power of two are rounded alike, so that ends are equal to the bit."""
+    equations = (x**2 + y**2 - 4, x * y - 1, x - 3)
+    starts = np.random.default_rng(5).normal(size=(10, 3))
+    plain, scaled = (
+        least_squares(CompiledMap(equations, R, [1.0] * 3, [size] * 3), starts) for size in (1.0, 2.0**power)
+    )
+    assert np.array_equal(plain, scaled)
+
+
 def test_least_squares_of_many_starts_are_those_of_each() -> None:
     """Rows take their own steps, as one start does."""
     system = CompiledMap((x**2 + y**2 - 4, x * y - 1, x - 3), R, [1.0] * 3, [1.0] * 3)

@@ -7,7 +7,7 @@ Whiteley, SIAM J. Discrete Math. 9 (1996) 453-491, else its components through t
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from singsym.classes.classify import Limits
@@ -37,7 +37,10 @@ class SelfMotion:
         and null motions are infinitesimal; 1, they form a curve.  None where undecided, as `reason` says.
     certainty: of the dimension.
     curve: where the dimension is 1, all of the connected curve of such configurations through this one, with
-        polylines; None where it was not proven, as `untraced` says.
+        polylines; limits and exclusions are not looked at, so that a motion may end before; None where it was
+        not proven, as `untraced` says.
+    equation, point: where the variables of the curve are named, and their values in the configuration, in
+        floats.
     """
 
     held: str
@@ -47,6 +50,8 @@ class SelfMotion:
     reason: str = ""
     curve: Known[CurveComponent] | None = None
     untraced: str = ""
+    equation: VelocityEquation | None = field(default=None, repr=False, compare=False)
+    point: Mapping[str, float] = field(default_factory=dict, repr=False, compare=False)
 
     def __str__(self) -> str:
         """In words."""
@@ -85,13 +90,15 @@ def self_motions_equation(
     read = given if isinstance(given, Given) else Given.of(given, file)
     values = exact_values(equation, targets(read, equation, file))
     point = None if values is None else ExactPoint.of(equation, values)
-    if point is None:
+    if values is None or point is None:
         at_equation(equation, read, file=file)
         reason = "the values are not exactly those of a configuration; write them as 30 deg or sqrt(3)/2"
         inputs, outputs = (SelfMotion(h, None, None, "undecided", reason) for h in ("inputs", "outputs"))
         return inputs, outputs
     driven = [(c.label, equation.values.get(c.label)) for c in equation.columns if c.role == "input"]
-    return _fibre(point, "inputs", driven), _fibre(point, "outputs", equation.outputs)
+    place = {name: float(value) for name, value in values.items()}
+    inputs, outputs = _fibre(point, "inputs", driven), _fibre(point, "outputs", equation.outputs)
+    return replace(inputs, equation=equation, point=place), replace(outputs, equation=equation, point=place)
 
 
 def _fibre(point: ExactPoint, held: str, values: Sequence[tuple[str, JointValue | None]]) -> SelfMotion:

@@ -12,7 +12,8 @@ from itertools import combinations
 import networkx as nx
 import numpy as np
 
-from singsym.effort import progress
+from singsym.effort import patience, progress
+from singsym.effort.budget import current
 from singsym.effort.verdict import Verdict
 from singsym.kinematics.sampling import sample_configurations
 from singsym.mechanism.problems import MechanismError, Problem
@@ -48,16 +49,20 @@ def chart(motions: FreeMotions, grid: int, seed: int = 0) -> Regions:
     axes = tuple(axis * unit for axis, unit in zip(flood.axes, motions.space.units, strict=True))
     verdict = Verdict.undecided("found on a grid of the inputs: small regions and narrow ways may be missed")
     regions = tuple(region for region in found if region is not None)
-    return Regions(equation, borders.all, regions, verdict, _walls(motions, regions), axes, assemblies)
+    with current().part(patience.ALL_WALLS.work):
+        walls = _walls(motions, regions)
+    return Regions(equation, borders.all, regions, verdict, walls, axes, assemblies)
 
 
 def _walls(motions: FreeMotions, regions: tuple[Region, ...]) -> tuple[tuple[Wall, tuple[int, ...]], ...]:
-    """Between any two regions with the same signs a wall, where one is proven."""
+    """Between any two regions with the same signs a wall, where one is proven in time."""
     found: list[tuple[Wall, tuple[int, ...]]] = []
     for one, other in combinations(range(len(regions)), 2):
         first, second = regions[one], regions[other]
         if first.signs != second.signs or any(sides[one] * sides[other] < 0 for _, sides in found):
             continue
+        if current().is_worked_off():
+            break
         progress.report("regions", f"whether regions {one + 1} and {other + 1} are apart")
         between = wall(motions, first.signs, first.points, second.points)
         if between is not None:

@@ -13,7 +13,8 @@ import numpy as np
 from flint import arb
 
 from singsym.classes.configuration.at import Analysis
-from singsym.effort import progress
+from singsym.effort import patience, progress
+from singsym.effort.budget import current
 from singsym.mechanism.problems import MechanismError, Problem
 from singsym.motion.enclosures import BITS, Enclosure
 from singsym.motion.regions.borders import borders, input_space, point_of
@@ -57,8 +58,9 @@ def free_box(found: Analysis, *, tests: int = TESTS) -> FreeBox:
     """A proven box around a configuration that `at` has examined, for any mobility.
 
     It is grown on all sides at once, then side by side, as far as the proof goes: a larger one may be free as
-    well.  tests: so many boxes are tried; more make it larger.  Raises `MechanismError` where the
-    configuration is not proven to be regular and within limits, or the inputs' values are not known.
+    well.  tests: so many boxes are tried, where these come to an end in time; more make it larger.  Raises
+    `MechanismError` where the configuration is not proven to be regular and within limits, or the inputs'
+    values are not known.
 
     >>> from singsym.classes.configuration.at import at
     >>> from singsym.mechanism import load
@@ -73,7 +75,8 @@ def free_box(found: Analysis, *, tests: int = TESTS) -> FreeBox:
     place = motions.place(point)
     if place is None:
         raise MechanismError([Problem("configuration", OUTSIDE, "a regular configuration within limits")])
-    return _Paving(motions, point, tests).grown(found.length)
+    with current().part(patience.FREE_BOX.work):
+        return _Paving(motions, point, tests).grown(found.length)
 
 
 @dataclass(frozen=True)
@@ -93,7 +96,7 @@ class _Paving:
     """Cells that make up a box."""
 
     def __init__(self, motions: FreeMotions, point: Floats, tests: int) -> None:
-        self.motions, self.left, self.all = motions, tests, tests
+        self.motions, self.left, self.all, self.tried = motions, tests, tests, 0
         self.space, self.point = motions.space, point
         self.units = np.array(self.space.units)
         self.centre = self.space.at(point)[0]
@@ -191,7 +194,10 @@ class _Paving:
         return int(np.argmax(widths if slopes is None else widths * np.linalg.norm(slopes, axis=0)))
 
     def _cell(self, low: Floats, high: Floats, near: Floats) -> _Cell | None:
-        self.left -= 1
+        if current().remaining() == 0.0:
+            self.left = 0
+            return None
+        self.left, self.tried = self.left - 1, self.tried + 1
         point = self._near((low + high) / 2, near)
         if not np.isfinite(point).all():
             return None
@@ -221,11 +227,13 @@ class _Paving:
             return False
         found = self._sheet(at, at, near)
         own = [next((c for c in cells if c.has(at)), None) for cells in (one, two)]
-        return found is not None and all(cell is not None and cell.sheet.has(found) for cell in own)
+        return found is not None and all(
+            cell is not None and cell.sheet.has_configuration(found) for cell in own
+        )
 
     def _result(self, length: float) -> FreeBox:
         if not self.cells:
-            found, expected = f"no box was proven to be free in {self.all} tests", "more tests"
+            found, expected = f"no box was proven to be free in {self.tried} tests", "more tests"
             raise MechanismError([Problem("free box", found, expected)])
         labels, names = self.space.labels, self.motions.borders.equation.space.ring.names
         low, high = self.low * self.units, self.high * self.units
@@ -242,5 +250,5 @@ class _Paving:
             length,
             ranges,
             len(self.cells),
-            self.all - self.left,
+            self.tried,
         )

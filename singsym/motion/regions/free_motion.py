@@ -103,7 +103,7 @@ class FreeMotions:
         if first is None or last is None or last.end != path.times[-1]:
             return 0
         ends = ((one.near, first), (other.near, last.last))
-        return boxes if all(near.covers(end) and near.has(end) for near, end in ends) else 0
+        return boxes if all(near.has_values(end) and near.has_configuration(end) for near, end in ends) else 0
 
     def _free(self, way: Continuation, piece: MotionPiece) -> int:
         """In how many boxes a piece is free of borders; 0 where that is not proven."""

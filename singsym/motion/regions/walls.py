@@ -13,7 +13,7 @@ import numpy as np
 
 from singsym.classes.configuration.locate import sizes_of_coordinates
 from singsym.effort import patience
-from singsym.effort.budget import Budget, Undecided
+from singsym.effort.budget import Undecided, current
 from singsym.effort.verdict import Certainty, weakest
 from singsym.motion.enclosures import BITS, point_on
 from singsym.motion.regions.free_motion import FreeMotions
@@ -33,7 +33,7 @@ _DENOMINATORS = (2, 10, 100, 10000)
 def wall(motions: FreeMotions, signs: tuple[int, ...], one: Floats, other: Floats) -> Wall | None:
     """A plane between configurations with these signs, (points, variables) each, that is proven to be a wall.
 
-    None where none of those that are tried is, or where the configurations are no surface.
+    None where none of those that are tried is in time, or where the configurations are no surface.
     """
     if motions.borders.equation.n != 2 or not all(signs):
         return None
@@ -96,7 +96,7 @@ def _proven(motions: FreeMotions, signs: tuple[int, ...], plane: Polynomial) -> 
     """How it is known that a plane meets no configuration with these signs; None where it may."""
     borders = motions.borders
     polynomials = [b.polynomial for b in borders.all]
-    budget = Budget(work=patience.WALLS.work)
+    budget = current().part(patience.WALLS.work)
     curve = real_curve((*borders.equation.space.equations, plane), budget=budget)
     cut = curve.cut(*polynomials, budget=budget)
     for point in curve.isolated_points:

@@ -13,7 +13,10 @@ from singsym.designs.plane import Plane
 from singsym.designs.result import Cell, Design
 from singsym.output.design.page import table_text
 from singsym.output.figures.style import INK, PALE, PAPER, SERIES, Picture, entitle, paper
+from singsym.output.pieces import counted
 
+_OPEN = "open: not classified in time"
+_HATCHED: dict[str, Any] = {"facecolor": PAPER, "edgecolor": PALE, "hatch": "///"}
 _STEPS = 12
 _BEYOND = 0.25
 """So much of a chart's width is drawn beyond the last border."""
@@ -21,8 +24,9 @@ _BEYOND = 0.25
 
 def plot_design(found: Design, axes: Any = None) -> Picture:
     """The space of one or two parameters, one colour for each table of classes; white: no singularity,
-    grey: no configuration.
+    grey: no configuration, hatched: no table, as its sample was not classified.
 
+    Where it is not proven that tables are those of whole cells, a line below the title says so.
     axes: of matplotlib to draw on; None: those of a new figure.  What lies beyond the last border of an
     unbounded range is cut off.
     """
@@ -39,13 +43,39 @@ def plot_design(found: Design, axes: Any = None) -> Picture:
         Patch(facecolor=colours[table], edgecolor=INK, alpha=0.45, label=table_text(table))
         for table in colours
     ]
+    if any(cell.classification is None for cell in found.cells):
+        handles.append(Patch(label=_OPEN, **_HATCHED))
     where = {"loc": "outside lower center"} if alone else {"loc": "best"}
     (own.figure if alone else own).legend(handles=handles, fontsize=8, frameon=False, **where)
     name = found.mechanism.title or found.mechanism.name
     title = f"{name}: classes over {', '.join(found.parameters)}"
     entitle(own, title, alone=alone)
-    described = "; ".join(f"{cell.where}: {table_text(cell.entries)}" for cell in found.cells)
-    return Picture(own.figure, title, f"Cells of the parameters. {described}.")
+    doubts = _doubts(found)
+    if doubts and alone:
+        own.set_title(doubts, fontsize=8, color=INK)
+    described = "; ".join(f"{cell.where}: {_said(cell)}" for cell in found.cells)
+    more = f" {doubts}." if doubts else ""
+    return Picture(own.figure, title, f"Cells of the parameters. {described}.{more}")
+
+
+def _said(cell: Cell) -> str:
+    return _OPEN if cell.classification is None else table_text(cell.entries)
+
+
+def _doubts(found: Design) -> str:
+    """What is not proven of all of a cell, in one line."""
+    types = {types for types, _ in found.doubts if types}
+    if not found.doubts:
+        return ""
+    kinds = f"{counted(len(types), 'kind')} of singularity" if types else "whether there are configurations"
+    return f"Only seen at samples, not proven for whole cells: {kinds}"
+
+
+def _look(cell: Cell, colours: dict[Any, str]) -> dict[str, Any]:
+    """How the area of a cell is filled."""
+    if cell.classification is None:
+        return _HATCHED
+    return {"facecolor": colours[cell.entries], "alpha": 0.45}
 
 
 def _colours(found: Design) -> dict[Any, str]:
@@ -65,7 +95,7 @@ def _draw_line(axes: Any, found: Design, colours: dict[Any, str]) -> None:
     margin = _BEYOND * (high - low or 1.0)
     cuts = [max(0.0, low - margin) if low > 0 else low - margin, *ends, high + margin]
     for cell, left, right in zip(found.cells, cuts, cuts[1:], strict=False):
-        axes.axvspan(left, right, facecolor=colours[cell.entries], alpha=0.45)
+        axes.axvspan(left, right, **_look(cell, colours))
         axes.text((left + right) / 2, 0.5, _short(cell), ha="center", va="center", fontsize=8, color=INK)
     for x in ends:
         axes.axvline(x, color=INK, lw=1.0)
@@ -112,8 +142,7 @@ def _draw_plane(axes: Any, found: Design, plane: Plane, colours: dict[Any, str])
             if cell is not None:
                 under = heights[:, j - 1] if j else np.full(len(x), low)
                 over = heights[:, j] if j < count else np.full(len(x), high)
-                colour = colours[cell.entries]
-                axes.fill_between(x, under, over, facecolor=colour, alpha=0.45, lw=0, antialiased=False)
+                axes.fill_between(x, under, over, lw=0, antialiased=False, **_look(cell, colours))
     _draw_borders(axes, found, (left, right), (low, high))
     for cell in found.cells:
         x0, y0 = (float(cell.sample[name]) for name in plane.names)

@@ -21,6 +21,10 @@ from singsym.output.page import Block, Grid, Page
 from singsym.output.pieces import counted
 from singsym.polynomials.latex import polynomial_latex
 
+_AT_SAMPLES = "there the table holds at the sample; it is not proven constant."
+_MOST_LISTED = 6
+"""Types in a sentence; more are counted."""
+
 
 def design_page(found: Design) -> Page:
     """The border, the cells with their tables, and what is proven of them."""
@@ -36,8 +40,11 @@ def design_page(found: Design) -> Page:
         blocks.append(_signs(found))
     if found.values:
         blocks.append(Grid(headers, tuple(map(_row, found.values)), "On the border"))
-    elif found.dividing:
-        blocks.append("On the border itself nothing is said of the table.")
+    if found.plane is not None and found.dividing:
+        points = "each table is that of the one point given; " if found.values else ""
+        blocks.append(
+            f"On the border {points}nothing is said of its other points, nor of where borders cross."
+        )
     blocks.append(proof_text(found))
     questions = gathered(found.open_questions())
     if questions:
@@ -118,11 +125,13 @@ def proof_text(found: Design) -> str:
         " sample."
     )
     doubtful = dict.fromkeys(types for types, _ in found.doubts)
-    if doubtful:
+    if len(doubtful) > _MOST_LISTED:
+        said += f" Not of {len(doubtful)} classes, which are open below: {_AT_SAMPLES}"
+    elif doubtful:
         listed = ", ".join(
             f"({types})" if types else "whether there are configurations" for types in doubtful
         )
-        said += f" Not of {listed}: there the table holds at the sample; it is not proven constant."
+        said += f" Not of {listed}: {_AT_SAMPLES}"
     return said
 
 
@@ -145,7 +154,8 @@ def design_rows(found: Design) -> list[dict[str, Any]]:
     for cell in (*found.cells, *found.values):
         own = {name: str(cell.sample.get(name, "")) for name in found.parameters}
         for row in class_rows(own, Sampled(cell.classification, cell.reason)):
-            constant = bool(cell.sample) and cell.classification is not None
+            known = bool(cell.sample) and cell.classification is not None
+            constant = known and not found.is_sample_only(cell)
             if row["types"] is not None:
                 constant = constant and found.is_constant(SingularityType.named(row["types"]))
             elif found.doubts:

@@ -227,8 +227,8 @@ def draw_traces(
         lines = [arc for component in trace.components for arc in component]
         for j, line in enumerate(lines):
             label = trace.label if j == 0 else None
-            for x in _wrapped(across.at(line), across.is_angle):
-                for y in _wrapped(up.at(line), up.is_angle):
+            for x in wrapped(across.at(line), across.is_angle):
+                for y in wrapped(up.at(line), up.is_angle):
                     # a curve along which neither coordinate changes is a point of the plane
                     marker = "." if np.ptp(x) + np.ptp(y) < 1e-6 else None
                     axes.plot(x, y, label=label, marker=marker, **style)
@@ -253,7 +253,7 @@ def _vector(classification: Classification, coordinates: object) -> Floats:
     return np.array([float(coordinates[name]) for name in names])  # type: ignore[index]
 
 
-def _wrapped(values: Floats, is_angle: bool) -> list[Floats]:
+def wrapped(values: Floats, is_angle: bool) -> list[Floats]:
     """An angle made continuous, in as many copies as are needed to fill the interval from -pi to pi."""
     if not is_angle:
         return [values]

@@ -16,6 +16,10 @@ from singsym.output.page import Block, Grid, Page
 from singsym.output.pieces import counted
 from singsym.varieties.real.curves.real_curve import CurveComponent
 
+_WITHOUT_LIMITS = (
+    "Joint limits and exclusions are not looked at: a curve goes on beyond them, a motion may end there."
+)
+
 
 def self_motion_page(found: Sequence[SelfMotion]) -> Page:
     """One line for the inputs at rest, and one for the outputs."""
@@ -28,6 +32,8 @@ def self_motion_page(found: Sequence[SelfMotion]) -> Page:
             blocks.append(_ranges(m.held, m.curve.value, described(m.curve.certainty)))
         elif m.untraced:
             blocks.append(f"The curve with the {m.held} at rest is not proven: {m.untraced}.")
+    if any(m.curve is not None for m in found):
+        blocks.append(_WITHOUT_LIMITS)
     return tuple(blocks)
 
 
@@ -39,7 +45,7 @@ def _ranges(held: str, curve: CurveComponent, how: str) -> Grid:
     size = "closed" if curve.closed else f"with {counted(curve.ends, 'end')} at infinity"
     crossings = len(curve.singular_points)
     more = f", {counted(crossings, 'singular point')}" if crossings else ""
-    title = f"The whole curve with the {held} at rest, {size}{more} ({how}); ranges numerical"
+    title = f"All of the loop equations' curve, the {held} at rest, {size}{more} ({how}); ranges numerical"
     return Grid(("variable", "from", "to"), rows, title)
 
 
@@ -53,6 +59,7 @@ def self_motion_data(found: Sequence[SelfMotion]) -> list[dict[str, Any]]:
             "certainty": str(m.certainty),
             "undecided": m.reason or None,
             "curve": None if m.curve is None else _curve_data(m.curve),
+            "untraced": m.untraced or None,
         }
         for m in found
     ]
@@ -63,6 +70,7 @@ def _curve_data(curve: Known[CurveComponent]) -> dict[str, Any]:
     return {
         "certainty": str(curve.certainty),
         "closed": found.closed,
+        "limits": "not looked at",
         "variables": list(found.names),
         "polylines": [line.tolist() for line in found.polylines],
     }

@@ -88,7 +88,17 @@ def test_the_curve_of_a_self_motion_is_traced() -> None:
     blocks = self_motion_page((found, still))
     assert isinstance(blocks[1], Grid)
     assert "closed (certified)" in blocks[1].title
-    assert self_motion_data((found, still))[0]["curve"]["closed"]
+    assert "limits and exclusions are not looked at" in str(blocks[-1])
+    data = self_motion_data((found, still))
+    assert data[0]["curve"]["closed"]
+    assert data[0]["curve"]["limits"] == "not looked at"
+
+
+def test_why_a_curve_was_not_traced_is_said() -> None:
+    """On the page and in JSON alike."""
+    untraced = SelfMotion("inputs", 1, 1, "proven", untraced="too hard")
+    assert "The curve with the inputs at rest is not proven: too hard." in self_motion_page((untraced,))
+    assert self_motion_data((untraced,))[0]["untraced"] == "too hard"
 
 
 def test_the_curve_crosses_itself_at_a_change_point(tmp_path: Path) -> None:

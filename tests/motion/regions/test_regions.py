@@ -11,11 +11,16 @@ import pytest
 import sympy
 
 from singsym.classes.configuration.at import at
+from singsym.effort import patience
+from singsym.effort.budget import Budget
 from singsym.mechanism import Limit, load, loads
 from singsym.mechanism.problems import MechanismError
 from singsym.motion.numeric import numeric
+from singsym.motion.regions import chart
 from singsym.motion.regions.free_box import free_box
+from singsym.motion.regions.free_motion import FreeMotions
 from singsym.motion.regions.regions import regions
+from singsym.motion.regions.result import Region
 from singsym.output.motion.regions_page import regions_page
 
 FOUR_BAR = """
@@ -161,6 +166,23 @@ def test_larger_mobilities_are_refused_with_what_there_is_for_them() -> None:
         regions(load("3rpr"))
 
 
+def test_all_walls_together_end_in_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pairs of regions with the same signs grow with the square of their number; each may take long."""
+    looked: list[object] = []
+
+    def wall(*own: object) -> None:
+        looked.append(own)
+
+    monkeypatch.setattr(chart, "wall", wall)
+    alike = tuple(Region({}, {}, (1,), (), np.zeros((1, 2)), np.zeros((1, 2), dtype=int)) for _ in range(4))
+    motions = FreeMotions.__new__(FreeMotions)
+    assert chart._walls(motions, alike) == ()
+    assert len(looked) == 6
+    with Budget(work=0.0):
+        assert chart._walls(motions, alike) == ()
+    assert len(looked) == 6
+
+
 # -- free boxes --------------------------------------------------------------------------------------
 
 
@@ -210,6 +232,13 @@ def determinant_of_lines(places: dict[str, np.ndarray]) -> np.ndarray:
         base, top = places[f"A{k}"], places[f"B{k}"]
         lines.append(np.concatenate([top - base, np.cross(base, top - base)], axis=-1))
     return np.linalg.det(np.stack(lines, axis=-2))
+
+
+def test_a_free_box_has_what_was_proven_in_time() -> None:
+    """Tests of boxes take longer in larger mechanisms: they end with the work that there is for them, too."""
+    crank = at(load("slider-crank"), {"joints": {"A": "60 deg", "P": "(1 + sqrt(33)) / 2"}})
+    with patience.scaled(0.0), pytest.raises(MechanismError, match="no box was proven to be free in 0 tests"):
+        free_box(crank)
 
 
 def test_no_box_around_a_singular_configuration() -> None:
