@@ -5,7 +5,7 @@ Source: Zlatanov, Fenton, Benhabib (1998), section 3.2; what vanishes on a groun
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -17,11 +17,15 @@ from singsym.effort.verdict import Known, Premises
 from singsym.elimination.ideal import Ideal
 from singsym.kinematics.nonzero import Certifier
 from singsym.kinematics.placement import ConfigurationSpace
-from singsym.polynomials import Polynomial
+from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.decomposition import Component, decompose
 from singsym.varieties.real.numerical.sampling import Points, is_large
 from singsym.varieties.real.proofs.vector_charts import Cartesian
 from singsym.varieties.real.system import RealSystem
+from singsym.varieties.splitting import used_ring
+
+_LONGEST_FACTORED = 3000
+"""A longer polynomial is taken as it is, as it might take long to factor."""
 
 
 class NotEvident(Undecided):
@@ -53,6 +57,32 @@ class Ground:
             return None
         chart = Cartesian.of(self.system)
         return chart, chart.based(patience.MEMBERSHIP.work)
+
+    @cached_property
+    def _few(self) -> dict[Ring, Ideal | None]:
+        """Ideals of the equations in some of the variables, where their bases were asked for."""
+        return {}
+
+    def _seeming_factors(self, polynomial: Polynomial) -> Iterator[Polynomial]:
+        """The factors that are small at some known point, those in few variables first."""
+        short = len(polynomial) <= _LONGEST_FACTORED
+        factors = [factor for factor, _ in polynomial.factors()] if short else [polynomial]
+        for factor in sorted(factors, key=lambda p: (len(p.variables), len(p))):
+            if not all(is_large(factor, (point,)) for point in self.samples):
+                yield factor
+
+    def _is_among_few(self, polynomial: Polynomial) -> Known[bool]:
+        """Whether it is in the ideal of the equations in its variables, where a basis is soon found."""
+        ring = used_ring(polynomial.ring, (polynomial,))
+        if ring not in self._few:
+            self._few[ring] = None
+            with attempt("a basis of a few equations", patience.MEMBERSHIP_IN_FEW.work):
+                own = (ring.convert(p) for p in self.patch.rest if {*ring.names} >= {*p.variables})
+                ideal = Ideal(ring, own)
+                ideal.groebner_basis()
+                self._few[ring] = ideal
+        known = self._few[ring]
+        return Known(False) if known is None else known.contains(ring.convert(polynomial))
 
     @property
     def equations(self) -> tuple[Polynomial, ...]:
@@ -113,6 +143,10 @@ class Ground:
         if is_combination(restricted, self.equations if self.component else self.patch.rest):
             return Known(True)
         if self.component is None:
+            for factor in self._seeming_factors(restricted):
+                among_few = self._is_among_few(factor)
+                if among_few.value:
+                    return premises.pass_on(among_few)
             if self._chart is not None and premises.grants(
                 self._chart[0].vanishes(restricted, self._chart[1])
             ):
