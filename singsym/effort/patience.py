@@ -58,6 +58,7 @@ MEMBERSHIP = Patience(2.0, "a minor is not proven to vanish on a patch, which is
 MEMBERSHIP_IN_FEW = Patience(
     0.5, "it is asked of all equations, not only those in its variables", is_proof=True
 )
+SOON_IRREDUCIBLE = Patience(0.3, "what borders a minor is looked at first")
 IRREDUCIBLE = Patience(3.0, "a patch counts as reducible")
 APART = Patience(0.5, "a set is searched as one, though a few of its equations may come apart")
 MEETING = Patience(0.5, "parts of one set that are curves are not counted")

@@ -107,7 +107,7 @@ def block_rank(
     >>> from singsym.varieties.real.system import RealSystem
     >>> matrix = PolynomialMatrix.of(R, [[x, y], [x, y]])
     >>> block_rank(matrix, line, line.certifier(RealSystem(R, ()), ())).value
-    BlockRank(rank=1, minors=(x,), exact=True, seen_off=x)
+    BlockRank(rank=1, minors=(x,), exact=True, seen_off=None)
     """
     rows, columns = start
     premises = Premises()
@@ -189,15 +189,14 @@ def _with_locus(
             exact = exact and vanishes.is_proven
             continue
         if seen_off is not None and (i, j) != largest:
-            borders = _is_rank(block, ground, certifier, (i, j))
-            if borders.value:
-                premises.take(borders)
-            elif premises.take(ground.has_no_zeros_inside(seen_off)):
+            if premises.take(ground.has_no_zeros_inside(seen_off, soon=True)):
                 seen_off = None
-            else:
-                # the rank may be higher where only this minor does not vanish
-                exact = False
-                continue
+            elif not premises.take(_is_rank(block, ground, certifier, (i, j))):
+                if not premises.take(ground.has_no_zeros_inside(seen_off)):
+                    # the rank may be higher where only this minor does not vanish
+                    exact = False
+                    continue
+                seen_off = None
         if minor.is_constant:
             return premises.conclude(BlockRank(r, ()))
         minors[minor.squarefree_part()] = None

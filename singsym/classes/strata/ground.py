@@ -89,8 +89,10 @@ class Ground:
         """The equations of all of the ground."""
         return self.component.generators if self.component else self.patch.generators
 
-    def has_no_zeros_inside(self, polynomial: Polynomial) -> Known[bool]:
+    def has_no_zeros_inside(self, polynomial: Polynomial, *, soon: bool = False) -> Known[bool]:
         """Whether the zeros of a polynomial are seen to hold no open part of the ground.
+
+        soon: only where that does not take long.
 
         On an irreducible ground those are such that do not vanish on all of it; then what vanishes off their
         zeros vanishes on the whole ground.
@@ -99,15 +101,22 @@ class Ground:
             prime, left = self.component.ideal if self.component.prime else None, polynomial
         else:
             left = self.patch.restrict(polynomial)
-            prime = self._prime if left else None
+            prime = (self._soon_prime if soon else self._prime) if left else None
         if prime is None:
             return Known(False)
         return prime.contains(left).map(lambda inside: not inside)
 
     @cached_property
+    def _soon_prime(self) -> Ideal | None:
+        return self._proven_prime(patience.SOON_IRREDUCIBLE.work)
+
+    @cached_property
     def _prime(self) -> Ideal | None:
+        return self._soon_prime or self._proven_prime(patience.IRREDUCIBLE.work)
+
+    def _proven_prime(self, seconds: float) -> Ideal | None:
         """The ideal of the patch in the variables that are not solved for, where it is soon proven prime."""
-        with attempt("whether a part is irreducible", patience.IRREDUCIBLE.work):
+        with attempt("whether a part is irreducible", seconds):
             components = decompose(self.patch.rest, ring=self.patch.ring)
             if len(components.value) == 1 and components.value[0].prime and components.is_proven:
                 return components.value[0].ideal

@@ -50,7 +50,6 @@ def is_proven_empty(
     """Whether there is no real point: yes where that is shown in so many seconds, else undecided.
 
     modular: whether an answer that rests on primes will do: with patience only where there is no better one.
-    Half of a short budget is left for real points, of which a decomposition may soon say that there is none.
     """
     hasty = engines.proof_patience() == 1
     longer = engines.proof_patience() if modular else 1.0
@@ -61,7 +60,7 @@ def is_proven_empty(
 
     def no_complex_point() -> Verdict:
         most = min(seconds, patience.HASTY_EMPTINESS.work) if hasty else seconds
-        with attempt("a proof that there is no complex point", most * longer, share=1 / 2):
+        with attempt("a proof that there is no complex point", most * longer):
             return chart.is_empty(patience.QUICK_EMPTINESS.work if modular and hasty else None)
         return Verdict.undecided("that there is no complex point was not shown in time")
 

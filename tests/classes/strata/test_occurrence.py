@@ -6,11 +6,8 @@ import pytest
 
 from singsym.classes.strata.occurrence import is_proven_empty, points_on, restricted, samples_of
 from singsym.classes.strata.patches import unsplit
-from singsym.effort.budget import Budget, current
-from singsym.effort.verdict import Verdict
 from singsym.polynomials import Ring
 from singsym.varieties.decomposition import decompose
-from singsym.varieties.real.proofs.vector_charts import Cartesian
 from singsym.varieties.real.system import RealSystem
 
 R = Ring(("x", "y"))
@@ -48,20 +45,6 @@ CIRCLE = x**2 + y**2 - 1
 @pytest.mark.parametrize("modular", [True, False])
 def test_what_is_proven_empty(system: RealSystem, empty: bool, modular: bool) -> None:
     assert is_proven_empty(system, modular=modular).is_yes == empty
-
-
-def test_a_proof_over_the_complex_numbers_leaves_time_for_one_over_the_reals(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    """x^2 = -1 has complex solutions, so a proof that it has none may take all the time."""
-
-    def endless(*given: object) -> Verdict:
-        while True:
-            current().check("a proof")
-
-    monkeypatch.setattr(Cartesian, "is_empty", endless)
-    with Budget(work=0.4):
-        assert is_proven_empty(RealSystem(R, (x**2 + 1,))).is_yes
 
 
 def test_a_set_on_a_patch() -> None:

@@ -13,6 +13,8 @@ from singsym.classes.strata.ground import Ground, NotEvident
 from singsym.classes.strata.patches import Patch
 from singsym.classes.strata.ranks import RankProblem, ranked, relevant
 from singsym.classes.taxonomy.types import Defects, SingularityType, feasible_defects
+from singsym.effort import patience
+from singsym.effort.budget import Undecided, current
 from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
 from singsym.varieties.decomposition import decompose
 from singsym.varieties.real.numerical.sampling import numerical_points
@@ -111,21 +113,26 @@ def test_a_combination_of_equations_vanishes() -> None:
 def test_whether_a_patch_is_irreducible_is_asked_last(monkeypatch: pytest.MonkeyPatch) -> None:
     """Not where one entry alone does not vanish: off its zeros the rank is 1, whatever lies inside them.
 
-    Nor where the only larger minor is zero, so that each entry shows the rank.
+    Nor for long where the only larger minor is zero, so that each entry shows the rank.
     """
+    asked: list[float] = []
 
-    def asked(*given: object, **named: object) -> object:
-        raise AssertionError
+    def never(*given: object, **named: object) -> object:
+        asked.append(current().remaining() or 0.0)
+        raise Undecided("not seen")
 
-    monkeypatch.setattr(ground_module, "decompose", asked)
+    monkeypatch.setattr(ground_module, "decompose", never)
     where = Ground(Patch(R, {}, (x * y,)), ((0.0, 1.0),))
     found = rank(PolynomialMatrix.of(R, [[y, x * y], [x * y**2, 0]]), where)
-    assert (found.rank, found.minors, found.seen_off) == (1, (y,), y)
-    with pytest.raises(AssertionError):
-        where.has_no_zeros_inside(y)
+    assert (found.rank, found.minors, found.seen_off, asked) == (1, (y,), y, [])
+    assert not where.has_no_zeros_inside(y).value
+    assert len(asked) == 2
+    asked.clear()
     plane = Ground(Patch(R, {}, ()), ((1.0, 2.0),))
     found = rank(PolynomialMatrix.of(R, [[x, y], [2 * x, 2 * y]]), plane)
     assert (found.rank, set(found.minors)) == (1, {x, y})
+    assert len(asked) == 1
+    assert asked[0] == pytest.approx(patience.SOON_IRREDUCIBLE.work, abs=0.2)
 
 
 @pytest.mark.parametrize("n", [1, 2, 3])
