@@ -30,7 +30,9 @@ _RESTING = "that there is no more of it rests on random primes"
 def summary(result: Classification) -> tuple[str, ...]:
     """Where the mechanism locks and goes slack, where more happens to it, and what is known of the classes.
 
-    Each line says how it is known.  That nothing of a kind occurs is one line only for the first two.
+    Each line says how it is known.  That nothing of a kind occurs is one line only for the first two.  That
+    the configuration space has fewer dimensions than n, or no known point, comes first: what cannot move has
+    no singularity either.
 
     >>> from singsym.classes.classify import classify
     >>> from singsym.mechanism import load
@@ -39,7 +41,7 @@ def summary(result: Classification) -> tuple[str, ...]:
     Goes slack (RO, the output can move with the input locked): never (proven)
     Class 1 occurs; every other class is proven empty
     """
-    lines = []
+    lines = list(_short_of_motions(result))
     for kind, asked in _ASKED.items():
         own = [c for c in result.classes if kind in c.types]
         if kind in _ALWAYS or not all(c.verdict.is_no for c in own):
@@ -89,6 +91,16 @@ def in_ranges(numbers: Iterable[int]) -> str:
         else:
             runs.append([number])
     return ", ".join(f"{r[0]}-{r[-1]}" if len(r) > 2 else ", ".join(map(str, r)) for r in runs)
+
+
+def _short_of_motions(result: Classification) -> Iterable[str]:
+    """That there is less to move than the mobility says."""
+    n, pieces = result.equation.n, result.configuration_space
+    if not pieces and all(c.verdict.is_no for c in result.classes):
+        yield "No configuration is known: loops that close nowhere, or limits and exclusions, leave none"
+    most = union(piece.extent for piece in pieces).at_most
+    if pieces and most is not None and most < n + result.equation.space.varying:
+        yield f"Moves less than n = {n} says: the dimension of the configuration space is {most} at most"
 
 
 def _meaning(kind: SingularityType, n: int) -> str:

@@ -15,7 +15,7 @@ import sympy
 
 from singsym.kinematics.numberfield import Atoms, NumberField, number_field
 from singsym.mechanism.couplings import angle_relations, slide_relations
-from singsym.mechanism.model import Mechanism, Parameter
+from singsym.mechanism.model import JointKind, Mechanism, Parameter
 from singsym.mechanism.problems import MechanismError, Problem
 from singsym.polynomials import AlgebraicConstant, Polynomial, Ring
 
@@ -68,6 +68,7 @@ class Dimensions:
             expressions.extend((sympy.cos(relation.constant), sympy.sin(relation.constant)))
         for axis in (a for link in mechanism.links for a in link.axes.values()):
             expressions.append(norm(axis))
+        expressions.extend(_turned_upright(mechanism))
         return cls.of_expressions(expressions, mechanism.parameters)
 
     @classmethod
@@ -352,6 +353,20 @@ class Sized:
     def number(self, expression: Any) -> Polynomial:
         """A dimension as a reduced polynomial of the ring."""
         return self.dimensions.polynomial(self.ring, expression)
+
+
+def _turned_upright(mechanism: Mechanism) -> Iterable[sympy.Expr]:
+    """The lengths by which a universal joint's axes, at no right angle in the frames, are brought to one."""
+    for joint in mechanism.joints:
+        if joint.kind is JointKind.U and joint.axes is not None:
+            a = mechanism.link(joint.first).axes[joint.axes[0]]
+            b = mechanism.link(joint.second).axes[joint.axes[1]]
+            apart = norm(_cross(a, b))
+            yield norm(_cross((1, 0, 0), a)) if apart == 0 else apart
+
+
+def _cross(a: Sequence[Any], b: Sequence[Any]) -> tuple[Any, ...]:
+    return tuple(a[i] * b[j] - a[j] * b[i] for i, j in ((1, 2), (2, 0), (0, 1)))
 
 
 def dimensions(mechanism: Mechanism, variables: Sequence[str]) -> Sized:

@@ -41,7 +41,7 @@ class ShortForms:
         fixed = {constant.name for constant in ring.constants}
         for equation in self.equations:
             names = equation.variables
-            pure = all(sum(m) in (0, 2) and max(m) in (0, 2) for m, _ in equation.terms())
+            pure = names and all(sum(m) in (0, 2) and max(m) in (0, 2) for m, _ in equation.terms())
             if pure and len(equation) == len(names) + 1 and equation.constant and not fixed & {*names}:
                 sign = -1 if equation.constant > 0 else 1
                 if all(sign * c > 0 for m, c in equation.terms() if any(m)):

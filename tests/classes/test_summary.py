@@ -17,7 +17,7 @@ from singsym.classes.summary import empty_text, shown_classes
 from singsym.classes.taxonomy.types import SingularityType as T
 from singsym.classes.taxonomy.types import feasible_classes
 from singsym.effort.verdict import Verdict
-from singsym.mechanism import load
+from singsym.mechanism import load, loads
 from singsym.output.page import plain
 from singsym.output.plain_data import classification_data
 from singsym.output.text import classification_page
@@ -70,6 +70,26 @@ def test_a_mechanism_without_singularities() -> None:
     lines = classify(load("oldham"), cache=False).summary
     assert lines[2] == "No singularity: every class is proven empty"
     assert all(line.endswith("never (proven)") for line in lines[:2])
+
+
+TWO_PINS = """
+inputs = ["A"]
+output = { rate = "B" }
+[links]
+ground = { points = { A = [0, 0], B = [1, 0] } }
+bar = { points = { A = [0, 0], B = [1, 0] } }
+[joints]
+A = "R"
+B = "R"
+"""
+
+
+@pytest.mark.parametrize("limits", ["", '[limits]\n"cos(A)" = { max = 0 }'])
+def test_what_does_not_move_is_no_mechanism_without_singularities(limits: str) -> None:
+    """A bar on two pins in the ground: one configuration, which no equation is about, or none."""
+    result = classify(loads(TWO_PINS + limits), cache=False)
+    assert result.summary[0].startswith("No configuration is known" if limits else "Moves less than n = 1")
+    assert [piece.dimension for piece in result.configuration_space] == ([] if limits else [0])
 
 
 @pytest.mark.parametrize(

@@ -176,6 +176,28 @@ def test_other_joints_move_by_their_screws(text: str, motion_residual: Callable[
     assert motion_residual(mechanism, joint.place(mechanism), 1) < 1e-6
 
 
+@pytest.mark.parametrize("second", ['"1/3", "2/3", "-2/3"', '"3/5", 0, "4/5"'])
+def test_a_universal_joint_turns_its_axes_to_a_right_angle(second: str) -> None:
+    """Axes that are parallel in the frames, or at another angle, whose sine is a root: 1 - (1/3)^2 is 8/9."""
+    arm = loads(
+        f"""
+        space = "spatial"
+        inputs = ["U.angle1", "U.angle2"]
+        output = {{ velocity = "T", components = ["x", "y"] }}
+        [links]
+        ground = {{ points = {{ O = [0, 0, 0] }}, axes = {{ u = ["1/3", "2/3", "-2/3"] }} }}
+        arm = {{ points = {{ O = [0, 0, 0], T = [1, 0, 0] }}, axes = {{ v = [{second}] }} }}
+        [joints]
+        U = {{ type = "U", links = ["ground", "arm"], at = "O", axis = ["u", "v"] }}
+        """
+    )
+    space = joint.place(arm).space
+    at = [{"c_": 0.6, "s_": 0.8, "sq": np.sqrt(2)}[name[:2]] for name in space.ring.names]
+    u, v = (np.array([float(x.evaluate(at)) for x in space.directions[name]]) for name in "uv")
+    assert abs(u @ v) < 1e-12
+    assert abs(v @ v - 1) < 1e-12
+
+
 def test_a_helical_joint_slides_by_its_pitch() -> None:
     """Its screw is that of the cylindrical joint's turn, plus the pitch times its slide."""
     cylinder = loads(MIXED)

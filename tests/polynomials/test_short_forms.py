@@ -51,3 +51,10 @@ def test_powers_of_a_constant_go(terms: dict[tuple[int, ...], int]) -> None:
     for m, coefficient in terms.items():
         expected = expected + R.from_dict({(*m[:5], m[5] % 3): coefficient * 2 ** (m[5] // 3)})
     assert R.reduced(R.from_dict(terms)) == expected
+
+
+def test_no_variable_goes_by_an_equation_without_any() -> None:
+    """1 = 0, which a loop gives that cannot be closed, is no circle."""
+    forms = short_forms(R, (CIRCLES[0], R.one))
+    assert forms.squares == short_forms(R, CIRCLES[:1]).squares
+    assert forms.normal_form(s**2) == 1 - c**2

@@ -16,6 +16,7 @@ from singsym.classes.strata.reflections import IDENTITY
 from singsym.effort.attempts import attempt
 from singsym.effort.verdict import Known, weakest
 from singsym.elimination.engines.base import NotZeroDimensional
+from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Equations
 from singsym.varieties.real.modules.isolated_points import tangencies
 from singsym.varieties.real.modules.module_points import comes_apart, module_points
@@ -34,9 +35,9 @@ def finitely_many(system: RealSystem, found: Found) -> Known[CertifiedPoints] | 
     """
     equations, images = system.closed_equations, found.images
     ways: list[tuple[Callable[[], Known[CertifiedPoints]], float]] = [
-        (partial(real_points, equations), 1 / 3)
+        (partial(real_points, Ideal(system.ring, equations)), 1 / 3)
     ]
-    if comes_apart(equations):
+    if equations and comes_apart(equations):
         ways.insert(0, (partial(module_points, equations), 1 / 2))
     if system.exclusions:
         ways.append((partial(points_off_exclusions, system), 1 / 3))

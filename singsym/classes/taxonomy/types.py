@@ -205,13 +205,17 @@ def feasible_classes(n: int = 3) -> tuple[SingularityClass, ...]:
 
     From n = 3 on all are there; for smaller n the numbers of Table 1 stay. Raises `ValueError` for n < 1.
 
+    Lemma: n only bounds defects from above, so that a larger one forbids nothing more. Types are kept where
+    the larger of delta and p becomes 1 more than the other, if it was more, and k_I, k_O that number, or 1
+    more where they were larger; then all are lowered until min(delta, p) <= 1. That is feasible for n = 3.
+
     >>> [len(feasible_classes(n)) for n in (1, 2, 3, 4)]
     [9, 19, 21, 21]
     """
     if n < 1:
         raise ValueError(f"mobility {n}: a mechanism with inputs and outputs has n >= 1")
-    if n == 3:
-        found = {d.types for d in feasible_defects(n)} - {SingularityType(0)}
+    if n >= 3:
+        found = {d.types for d in feasible_defects(3)} - {SingularityType(0)}
         return tuple(SingularityClass(i, t) for i, t in enumerate(sorted(found, key=_order), 1))
     possible = {d.types for d in feasible_defects(n)}
     return tuple(c for c in feasible_classes(3) if c.types in possible)

@@ -56,6 +56,13 @@ def test_larger_defects_give_no_further_class(n: int) -> None:
     assert {d.types for d in box if d.is_feasible(n)} <= {d.types for d in feasible_defects(n)}
 
 
+def test_from_three_on_the_classes_are_the_same() -> None:
+    """The lemma of `feasible_classes`, by brute force; for a large n nothing is enumerated."""
+    classes = {c.types for c in feasible_classes(3)} | {SingularityType(0)}
+    assert all({d.types for d in feasible_defects(n)} == classes for n in (4, 5, 6))
+    assert feasible_classes(99999) == feasible_classes(3)
+
+
 def test_every_feasible_tuple_is_realised_by_a_matrix() -> None:
     """With no passive rank, T and input columns on unit vectors e_i that overlap as little as they must."""
     for n in (1, 2, 3):

@@ -55,6 +55,8 @@ def zeros_on(system: System, loop: Chain, polynomial: Polynomial, budget: Budget
     >>> [p.decimals(3) for p in zeros_on(circle, loop, 2 * y - 1, Budget()).zeros]
     [{'x': '0.866', 'y': '0.500'}, {'x': '-0.866', 'y': '0.500'}]
     """
+    if not polynomial:
+        raise Undecided("a polynomial is zero, on a curve and elsewhere")
     form = _compiled(polynomial)
     for halvings in range(_HALVINGS):
         budget.check("zeros on a curve")

@@ -42,8 +42,8 @@ def test_signs_where_there_is_no_zero() -> None:
     assert set(zeros(x**2 + 1).signs) == {1}
 
 
-@pytest.mark.parametrize("polynomial", [y - 1, x**2 + y**2 - 1, (y - x) ** 2], ids=str)
+@pytest.mark.parametrize("polynomial", [y - 1, x**2 + y**2 - 1, (y - x) ** 2, R.zero], ids=str)
 def test_a_zero_that_is_no_change_of_sign_is_not_decided(polynomial: Polynomial) -> None:
-    """A tangent, the circle itself, and a double line."""
+    """A tangent, the circle itself, a double line; zero, the discriminant of a dyad that never opens."""
     with pytest.raises(Undecided):
         zeros(polynomial)
