@@ -16,6 +16,7 @@ from singsym.effort import patience
 from singsym.effort.attempts import attempt
 from singsym.effort.verdict import Known
 from singsym.kinematics.placement import JointValue
+from singsym.polynomials import Equations
 from singsym.polynomials.unit_circles import Pair
 from singsym.varieties.real.dimension.fewer_equations import fewer_equations
 from singsym.varieties.real.dimension.independent_coordinates import are_dependent
@@ -43,7 +44,9 @@ def upper_bound(
     >>> upper_bound(points, 1, anywhere)
     Known(value=1, certainty='proven')
     """
-    few = fewer_equations(replace(feasible, equations=system.closed_equations), dimension)
+    few: Equations | None = None
+    if not coordinates:
+        few = fewer_equations(replace(feasible, equations=system.closed_equations), dimension)
     some = None if few is None else replace(feasible, equations=few)
     if some is not None and (found := _proven(some, dimension)) is not None:
         return found
