@@ -73,8 +73,12 @@ def test_undecided_classes_are_named() -> None:
     found = card(classify(load("zlatanov-2dof"), limits=limits, cache=False))
     assert found.open
     assert found.undecided
-    named = re.findall(r"occurrence of class ([0-9, ]+)", found.body)
-    assert set(found.open) <= {int(number) for listed in named for number in listed.split(",")}
+    spans = [
+        [int(number) for number in span.split(" to ")]
+        for listed in re.findall(r"occurrence of class ((?:[0-9]|, | to )+)", found.body)
+        for span in listed.split(", ")
+    ]
+    assert set(found.open) <= {number for span in spans for number in range(span[0], span[-1] + 1)}
 
 
 def test_equations_without_a_mechanism_have_no_place() -> None:
