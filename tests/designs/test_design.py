@@ -7,11 +7,12 @@ change, only where a sum or difference of its sides vanishes; slider-cranks by r
 from concurrent.futures import Executor, Future
 from dataclasses import replace
 from fractions import Fraction
-from itertools import product
+from itertools import pairwise, product
 from math import hypot, sqrt
 from types import SimpleNamespace
 
 import pytest
+import sympy
 
 import singsym
 from singsym.classes.running.runner import Runner
@@ -291,3 +292,27 @@ def test_a_sweep_stays_within_ranges():
     # a = 0 above 0 is none: the crank would be a point, and every turn of it a configuration
     with pytest.raises(singsym.MechanismError, match=r"the value -1; expected a value above 0\n.* 0;"):
         singsym.sweep(singsym.load("fourbar"), {"a": [-1, 0, 1]}, cache=False)
+
+
+def test_a_chart_of_many_cells_has_room_for_all_that_is_written():
+    """Twenty cells, half of them narrow, each with a table of its own."""
+    import matplotlib.pyplot as plt
+
+    found = singsym.design(singsym.load("fourbar"), ["a"], cache=False)
+    ends = [float(k) if k < 10 else 10 + (k - 10) / 50 for k in range(1, 20)]
+    cells = []
+    for k, place in enumerate([0.5, *(end + 0.001 for end in ends)]):
+        cell = replace(found.cells[0], sample={"a": sympy.Float(place)}, where=f"cell {k}")
+        cell.__dict__["entries"] = ((1, "yes", 0, k + 1, k + 1),)
+        cells.append(cell)
+    values = [replace(found.values[0], sample={"a": sympy.Float(x)}, about=x) for x in ends]
+    figure = replace(found, cells=tuple(cells), values=tuple(values)).plot().figure
+    figure.draw_without_rendering()
+    (axes,), (legend,) = figure.axes, figure.legends
+    assert len(legend.get_texts()) == 20
+    assert legend.get_window_extent().y1 < axes.get_window_extent().y0
+    for written in (axes.texts, axes.get_xticklabels()):
+        spans = sorted((box.x0, box.x1) for box in (text.get_window_extent() for text in written))
+        assert len(spans) > 8
+        assert all(one[1] < two[0] for one, two in pairwise(spans))
+    plt.close(figure)

@@ -20,11 +20,16 @@ _HATCHED: dict[str, Any] = {"facecolor": PAPER, "edgecolor": PALE, "hatch": "///
 _STEPS = 12
 _BEYOND = 0.25
 """So much of a chart's width is drawn beyond the last border."""
+_ROOM = 0.06
+"""So much of a chart's width has room for what is written in a cell or at a border."""
+_ROW = 0.19
+"""The height of a row of the legend, in inches."""
 
 
 def plot_design(found: Design, axes: Any = None) -> Picture:
     """The space of one or two parameters, one colour for each table of classes; white: no singularity,
-    grey: no configuration, hatched: no table, as its sample was not classified.
+    grey: no configuration, hatched: no table, as its sample was not classified.  Of one parameter, numbers
+    of points or components stand in cells, and values at borders, that have the room.
 
     Where it is not proven that tables are those of whole cells, a line below the title says so.
     axes: of matplotlib to draw on; None: those of a new figure.  What lies beyond the last border of an
@@ -33,8 +38,8 @@ def plot_design(found: Design, axes: Any = None) -> Picture:
     from matplotlib.patches import Patch
 
     alone = axes is None
-    own = paper(axes, 7.2, 2.2 if found.plane is None else 6.4)
     colours = _colours(found)
+    own = paper(axes, 7.2, (1.8 if found.plane is None else 5.6) + _ROW * (len(colours) + 1))
     if found.plane is None:
         _draw_line(own, found, colours)
     else:
@@ -96,15 +101,26 @@ def _draw_line(axes: Any, found: Design, colours: dict[Any, str]) -> None:
     cuts = [max(0.0, low - margin) if low > 0 else low - margin, *ends, high + margin]
     for cell, left, right in zip(found.cells, cuts, cuts[1:], strict=False):
         axes.axvspan(left, right, **_look(cell, colours))
-        axes.text((left + right) / 2, 0.5, _short(cell), ha="center", va="center", fontsize=8, color=INK)
+        if right - left > _ROOM * (cuts[-1] - cuts[0]):
+            axes.text((left + right) / 2, 0.5, _short(cell), ha="center", va="center", fontsize=8, color=INK)
     for x in ends:
         axes.axvline(x, color=INK, lw=1.0)
     axes.set_xlim(cuts[0], cuts[-1])
     axes.set_ylim(0, 1)
     axes.set_yticks([])
     if ticks:
-        axes.set_xticks(ticks, [f"{x:g}" for x in ticks])
+        shown = _apart(ticks, _ROOM * (cuts[-1] - cuts[0]))
+        axes.set_xticks(shown, [f"{x:.4g}" for x in shown])
     axes.set_xlabel(name)
+
+
+def _apart(places: list[float], room: float) -> list[float]:
+    """Those of ascending places that have so much room from the one before."""
+    found: list[float] = []
+    for x in places:
+        if not found or x - found[-1] >= room:
+            found.append(x)
+    return found
 
 
 def _short(cell: Cell) -> str:
