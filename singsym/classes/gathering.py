@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
 
 def gathered(pairs: Iterable[tuple[str, str]]) -> tuple[tuple[str, str], ...]:
@@ -22,17 +22,21 @@ def gathered(pairs: Iterable[tuple[str, str]]) -> tuple[tuple[str, str], ...]:
         else:
             named.setdefault(what, [])
     return tuple(
-        ("; ".join(f"{name} {', '.join(_spans(numbers))}".strip() for name, numbers in named.items()), reason)
+        ("; ".join(f"{name} {in_ranges(numbers, ' to ')}".strip() for name, numbers in named.items()), reason)
         for reason, named in by_reason.items()
     )
 
 
-def _spans(numbers: Sequence[int]) -> list[str]:
-    """Numbers as text, three and more that follow each other by the first and the last."""
+def in_ranges(numbers: Iterable[int], between: str = "-") -> str:
+    """Numbers in order, three or more that follow each other as one range.
+
+    >>> in_ranges([2, 3, 5, 6, 7, 9])
+    '2, 3, 5-7, 9'
+    """
     runs: list[list[int]] = []
     for number in numbers:
         if runs and number == runs[-1][-1] + 1:
             runs[-1].append(number)
         else:
             runs.append([number])
-    return [text for run in runs for text in ([f"{run[0]} to {run[-1]}"] if len(run) > 2 else map(str, run))]
+    return ", ".join(f"{r[0]}{between}{r[-1]}" if len(r) > 2 else ", ".join(map(str, r)) for r in runs)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
+from singsym.classes.gathering import in_ranges
 from singsym.classes.taxonomy.types import IN_WORDS, SingularityType, feasible_classes
 from singsym.effort.verdict import described, weakest
 from singsym.varieties.real.dimension.extent import union
@@ -76,21 +77,6 @@ def empty_text(result: Classification) -> str:
     """The classes that are empty on one line; "" where there are none."""
     said = [f"{in_ranges(numbers)} ({how})" for how, numbers in empty_classes(result).items()]
     return f"Empty: {'; '.join(said)}" if said else ""
-
-
-def in_ranges(numbers: Iterable[int]) -> str:
-    """Numbers in order, three or more that follow each other as one range.
-
-    >>> in_ranges([2, 3, 5, 6, 7, 9])
-    '2, 3, 5-7, 9'
-    """
-    runs: list[list[int]] = []
-    for number in numbers:
-        if runs and number == runs[-1][-1] + 1:
-            runs[-1].append(number)
-        else:
-            runs.append([number])
-    return ", ".join(f"{r[0]}-{r[-1]}" if len(r) > 2 else ", ".join(map(str, r)) for r in runs)
 
 
 def _short_of_motions(result: Classification) -> Iterable[str]:
