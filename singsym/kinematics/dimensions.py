@@ -359,14 +359,10 @@ def _turned_upright(mechanism: Mechanism) -> Iterable[sympy.Expr]:
     """The lengths by which a universal joint's axes, at no right angle in the frames, are brought to one."""
     for joint in mechanism.joints:
         if joint.kind is JointKind.U and joint.axes is not None:
-            a = mechanism.link(joint.first).axes[joint.axes[0]]
-            b = mechanism.link(joint.second).axes[joint.axes[1]]
-            apart = norm(_cross(a, b))
-            yield norm(_cross((1, 0, 0), a)) if apart == 0 else apart
-
-
-def _cross(a: Sequence[Any], b: Sequence[Any]) -> tuple[Any, ...]:
-    return tuple(a[i] * b[j] - a[j] * b[i] for i, j in ((1, 2), (2, 0), (0, 1)))
+            a = sympy.Matrix(mechanism.link(joint.first).axes[joint.axes[0]])
+            b = sympy.Matrix(mechanism.link(joint.second).axes[joint.axes[1]])
+            apart = norm(a.cross(b))
+            yield norm(sympy.Matrix((1, 0, 0)).cross(a)) if apart == 0 else apart
 
 
 def dimensions(mechanism: Mechanism, variables: Sequence[str]) -> Sized:
