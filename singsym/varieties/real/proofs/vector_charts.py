@@ -67,13 +67,13 @@ class Cartesian:
 
     def _simpler(self) -> Cartesian | None:
         used = [vector.pair for vector in self.vectors]
-        best, size = None, _size(self.system.equations)
+        best, size = None, sum(map(_size, self.system.equations))
         for pair in unit_circles(self.system.equations):
             if pair in used:
                 continue
             for length in (group[0] for group in self.system.exclusions if len(group) == 1):
                 vector = _Vector.of(pair, length, self.system)
-                if vector is not None and (other := _size(vector.all_parts(self.system.equations))) < size:
+                if vector is not None and (other := sum(map(vector.size, self.system.equations))) < size:
                     best, size = vector, other
         if best is None:
             return None
@@ -300,8 +300,9 @@ def _vanish_on(ideal: Ideal, polynomials: Group) -> Known[bool]:
     return premises.conclude(True)
 
 
-def _size(equations: Group) -> int:
-    return sum(sum(m) for p in equations for m in p.value.monoms())
+def _size(p: Polynomial) -> int:
+    """The sum of the degrees of its terms."""
+    return sum(map(sum, p.value.monoms()))
 
 
 def _short_exclusions(system: RealSystem) -> tuple[Group, ...]:
@@ -345,7 +346,7 @@ class _Vector:
             return None
         lead = length.coefficient(solved.name, 1).constant
         vector = cls(pair, solved.name, solved.value + length.ring.gen(solved.name) / lead)
-        changed = [vector._changed(p) for p in system.equations]
+        changed = [vector._changed(p) for p in system.equations if len(p) == 3 or not vector._renames(p)]
         for other in (other for other in unit_circles(changed) if vector.length in other):
             short = replace(vector, relation=circle(*map(length.ring.gen, other)))
             signs = (vector._changed(p, even=True) for p in (*system.positive, *system.nonnegative))
@@ -376,6 +377,12 @@ class _Vector:
         """Whether exclusions are the same for both vectors of a length that is left out."""
         return all(len(self.parts(g)) <= 1 for group in groups for g in group)
 
+    def size(self, p: Polynomial) -> int:
+        """The sum of the degrees of the terms of the parts of a polynomial."""
+        if self.relation is None and self._renames(p):
+            return _size_in_vector(p, self.pair, self.length)
+        return sum(map(_size, self.parts(p)))
+
     def all_parts(self, group: Group) -> Group:
         """The parts of several polynomials."""
         return tuple(q for p in group for q in self.parts(p))
@@ -390,11 +397,25 @@ class _Vector:
         even, odd = (changed.coefficient(self.length, k) for k in (0, 1))
         return tuple(q for q in (even, odd) if q)
 
+    def _renames(self, p: Polynomial) -> bool:
+        """Whether each term of a polynomial becomes one: nothing is put in for the length there."""
+        k = p.ring.index(self.length)
+        return p.degrees[k] <= 0 or self.put == p.ring.gens[k]
+
     def _reduced(self, p: Polynomial) -> Polynomial:
         return p if self.relation is None else remainder(p, self.relation, self.length)
 
     def _changed(self, p: Polynomial, even: bool = False) -> Polynomial:
         return _in_vector(p, self.pair, self.length, self.put, even)
+
+
+@lru_cache(maxsize=2**15)
+def _size_in_vector(p: Polynomial, pair: Pair, length: str) -> int:
+    """The sum of the degrees of the terms of `_in_vector` where nothing is put in for the length."""
+    k, i, j = map(p.ring.index, (length, *pair))
+    monomials = p.value.monoms()
+    shift = max((m[i] + m[j] - m[k] for m in monomials), default=0)
+    return sum(sum(m) - m[i] - m[j] + shift for m in monomials)
 
 
 @lru_cache(maxsize=2**15)
