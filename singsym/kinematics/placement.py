@@ -148,3 +148,13 @@ class Placement:
 def variables_of(polynomials: Iterable[Polynomial]) -> tuple[str, ...]:
     """The ring's names in any of some polynomials, in the order of their appearance."""
     return tuple(dict.fromkeys(name for p in polynomials for name in p.variables))
+
+
+def dot(a: Coordinates, b: Coordinates) -> Polynomial:
+    """The scalar product of two vectors of space."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def cross(a: Coordinates, b: Coordinates) -> Coordinates:
+    """The vector product of two vectors of space."""
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])

@@ -19,6 +19,7 @@ from itertools import combinations, permutations
 
 from flint import fmpq, fmpz
 
+from singsym.kinematics.loop_frames import in_link_frames
 from singsym.kinematics.nonzero import Certifier
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.polynomials import Polynomial, PolynomialMatrix
@@ -374,6 +375,7 @@ def reduce(equation: VelocityEquation, certifier: Certifier | None = None) -> Re
     Outputs and inputs stay.  N of the reduced equation is lower by `constant`, n is the same, so that the
     conditions (4), (5), (i)-(viii) read the same.
     """
+    equation = in_link_frames(equation)
     labels = tuple(column.label for column in equation.columns)
     passive = [j for j, column in enumerate(equation.columns) if column.role == "passive"]
     found = eliminate(equation.matrix, passive, certifier or Certifier(equation.space), equation.rows, labels)

@@ -5,7 +5,7 @@ Source: Zlatanov, Fenton, Benhabib (1998), (1)-(3); an example is (6).
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal
@@ -20,6 +20,7 @@ from singsym.kinematics.placement import (
     JointValue,
     PlacedJoint,
     Placement,
+    cross,
 )
 from singsym.mechanism.model import Joint, JointRate, Mechanism, Output, PointVelocity, Space
 from singsym.polynomials import Polynomial, PolynomialMatrix
@@ -306,16 +307,12 @@ def _arm(mechanism: Mechanism, placed: Placement, link: str, point: str) -> Coor
     return tuple(x - c for x, c in zip(place, centre, strict=True))
 
 
-def _cross(a: Sequence[Polynomial], b: Sequence[Polynomial]) -> Coordinates:
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
 def _at(screw: Coordinates, point: Coordinates, space: Space) -> Coordinates:
     """The twist with its velocity at a point: v + w x r."""
     if space is Space.PLANAR:
         w, vx, vy = screw
         return (w, vx - w * point[1], vy + w * point[0])
-    turned = _cross(screw[:3], point)
+    turned = cross(screw[:3], point)
     if space is Space.SPHERICAL:
         return (*screw, *turned)
     return (*screw[:3], *(v + t for v, t in zip(screw[3:], turned, strict=True)))

@@ -16,6 +16,7 @@ from itertools import combinations, product
 from math import comb, prod
 
 from singsym.classes.strata.ground import Ground, NotEvident
+from singsym.effort.budget import Undecided
 from singsym.effort.verdict import Known, Premises
 from singsym.kinematics.nonzero import Certifier
 from singsym.minors.blocks import easy_columns
@@ -50,15 +51,18 @@ MOST_PRODUCTS = 10**10
 """A determinant whose rows have more terms, multiplied with each other, is not expanded."""
 
 
-def expanded(square: PolynomialMatrix) -> Polynomial:
-    """The determinant; raises `NotEvident` with a short entry where it would be too large.
+def expanded(square: PolynomialMatrix, certifier: Certifier) -> Polynomial:
+    """The determinant; raises `NotEvident` with a short entry that may vanish where it would be too large.
 
     Where that entry is known not to vanish, it is a pivot, and the matrix gets smaller.
     """
     if prod(sum(map(len, row)) for row in square.rows) > MOST_PRODUCTS:
-        entries = (e for row in square.rows for e in row if not e.is_constant)
-        shortest = min(entries, key=lambda e: (*_weight(e), str(e)))
-        raise NotEvident(shortest, f"a minor of size {square.width} is too large to be expanded")
+        why = f"a minor of size {square.width} is too large to be expanded"
+        entries = {e for row in square.rows for e in row if not e.is_constant}
+        for shortest in sorted(entries, key=lambda e: (*_weight(e), str(e))):
+            if certifier.reason(shortest) is None:
+                raise NotEvident(shortest, why)
+        raise Undecided(why)
     return determinant(square)
 
 
@@ -66,12 +70,12 @@ Places = tuple[tuple[int, ...], tuple[int, ...]]
 """Rows and columns of a minor."""
 
 
-def numerical_minor(block: PolynomialMatrix, samples: Points) -> Places:
+def numerical_minor(block: PolynomialMatrix, samples: Points, certifier: Certifier) -> Places:
     """A minor that is as large as the rank of the block at one of the samples, and not small there."""
     best: Places = ((), ())
     for x in samples:
         found = pivots([[float(e) for e in row] for row in block.evaluate(x)])
-        if len(found[0]) > len(best[0]) and is_large(expanded(block.select(*found)), (x,)):
+        if len(found[0]) > len(best[0]) and is_large(expanded(block.select(*found), certifier), (x,)):
             best = found
     return best
 
@@ -111,11 +115,11 @@ def block_rank(
     """
     rows, columns = start
     premises = Premises()
-    last = expanded(block.select(rows, columns)) if rows else None
+    last = expanded(block.select(rows, columns), certifier) if rows else None
     while not largest:
         candidates = []
         for r, c in bordered(block.shape, rows, columns):
-            minor = expanded(block.select(r, c))
+            minor = expanded(block.select(r, c), certifier)
             if minor and not premises.take(ground.vanishes(minor, certifier)):
                 candidates.append((_weight(minor), r, c, minor))
                 if minor.is_constant:
@@ -136,7 +140,7 @@ def _is_rank(block: PolynomialMatrix, ground: Ground, certifier: Certifier, plac
     """Whether all minors that border one are seen to vanish on the ground."""
     premises = Premises()
     try:
-        borders = (expanded(block.select(*border)) for border in bordered(block.shape, *places))
+        borders = (expanded(block.select(*border), certifier) for border in bordered(block.shape, *places))
         known = (premises.take(ground.vanishes(minor, certifier)) for minor in borders if minor)
         return premises.conclude(all(known))
     except NotEvident:
@@ -173,7 +177,7 @@ def _with_locus(
     minors: dict[Polynomial, None] = {}
     premises = Premises()
     for i, j in choices:
-        minor = expanded(block.select(i, j))
+        minor = expanded(block.select(i, j), certifier)
         if not minor:
             continue
         if not exact and ground.seems_zero(minor):
@@ -202,7 +206,7 @@ def _with_locus(
         minors[minor.squarefree_part()] = None
     if not minors:
         # none of those that were looked at is known not to vanish, but the one that the rank was seen by
-        minors[expanded(block.select(rows, columns)).squarefree_part()] = None
+        minors[expanded(block.select(rows, columns), certifier).squarefree_part()] = None
         exact = False
     shortest = tuple(sorted(minors, key=lambda m: (_weight(m), str(m))))
     return premises.conclude(BlockRank(r, shortest, exact, seen_off))

@@ -177,7 +177,7 @@ class _Ranks:
         matrix = self.problem.matrices[name].map(ground.patch.restrict)
         parts = simplest_blocks(matrix, certifier, self.problem.outputs(name))
         full = self.problem.full(name) - parts.constant
-        starts = [numerical_minor(block, ground.samples) for block in parts.blocks]
+        starts = [numerical_minor(block, ground.samples, certifier) for block in parts.blocks]
         most = sum(min(block.shape) for block in parts.blocks)
         self.defect_bounds[name] = max(
             full - most, *(self.defect_bounds.get(other, 0) for other in _BELOW[name])

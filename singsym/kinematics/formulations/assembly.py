@@ -15,6 +15,8 @@ from singsym.kinematics.placement import ConfigurationSpace, Coordinates, JointV
 from singsym.mechanism.model import Joint, Mechanism, Space
 from singsym.polynomials import Polynomial
 from singsym.polynomials.short_forms import short_forms
+from singsym.polynomials.unit_circles import unit_circles
+from singsym.polynomials.unit_multiples import without_unit_multiples
 
 
 @dataclass
@@ -47,9 +49,16 @@ class Assembly:
         for joint in joints:
             first, second = self.bodies[joint.first], self.bodies[joint.second]
             length = self.algebra.ring.gen(names[joint.name]) if joint.name in names else None
-            self.equations += closure.equations(joint, self.geometry, first, second, length)
+            asked = map(self.shortened, closure.equations(joint, self.geometry, first, second, length))
+            self.equations += without_unit_multiples(tuple(asked), unit_circles(self.circles))
             if len(first.basis) == len(second.basis) == 3:
                 self.values |= closure.value(joint, self.geometry, first, second, length)
+
+    def shortened(self, equation: Polynomial) -> Polynomial:
+        """An equation, shorter by the circles."""
+        if equation in self.circles:
+            return equation
+        return short_forms(self.algebra.ring, self.circles).shorten(equation)
 
 
 def placement(assembly: Assembly, sized: Sized, formulation: str) -> Placement:
@@ -62,9 +71,7 @@ def placement(assembly: Assembly, sized: Sized, formulation: str) -> Placement:
         else:
             screws |= closure.screws(joint, geometry, bodies[joint.first], bodies[joint.second])
     link_points = _link_points(mechanism, geometry, bodies)
-    circles = assembly.circles
-    short = short_forms(assembly.algebra.ring, circles).shorten
-    closing = (e if e in circles else short(e) for e in assembly.equations)
+    closing = map(assembly.shortened, assembly.equations)
     space = ConfigurationSpace(
         ring=assembly.algebra.ring,
         equations=_distinct((*sized.relations, *closing)),
