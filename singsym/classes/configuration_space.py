@@ -37,6 +37,8 @@ from singsym.varieties.real.points.intervals import jacobian
 from singsym.varieties.real.proofs.emptiness import is_empty_over_reals
 from singsym.varieties.real.system import RealSystem
 
+_UNKNOWN = "it is not known whether they lie in the closure of larger pieces"
+
 
 def configuration_space(
     mechanism: Mechanism | None,
@@ -49,13 +51,14 @@ def configuration_space(
 
     whole: what `smoothness` says of it.
 
-    Without regular configurations, the classes of the largest dimension are the pieces.  Where a class may be
-    as large, a last piece, undecided, says so.
+    Without regular configurations, the classes of the largest dimension are the pieces, if no class is open.
+    Where a class may be as large, a last piece, undecided, says so, and of smaller parts on which the search
+    put no condition: they may lie in the closure of a larger one.
     """
     smooth, why = whole
     kept = ", ".join(mechanism.translating) if mechanism else ""
     usual = conditions.equation.n + conditions.equation.space.varying
-    regular = [p for p in pieces if not p.path and not p.verdict.is_no]
+    regular = [p for p in pieces if not p.path and not p.verdict.is_no and not _is_small(p, usual)]
     found = []
     for piece in regular:
         remarks = [] if piece.dimension is not None else [piece.extent.open]
@@ -66,19 +69,30 @@ def configuration_space(
         remarks += [why, f"only where these links keep their orientation: {kept}" if kept else ""]
         remark = "; ".join(filter(None, remarks))
         found.append(SpacePiece(piece.extent, smooth, piece.defects, piece.verdict, piece.basis, remark))
-    singular = [p for p in pieces if p.path and p.verdict.is_yes]
+    small = {p.defects.types for p in pieces if not p.path and _is_small(p, usual)}
+    singular = [p for p in pieces if (p.path or _is_small(p, usual)) and p.verdict.is_yes]
     at_least = usual if found else max((p.extent.at_least for p in singular), default=0)
-    own = [c for c in classes if c.verdict.is_yes and c.extent.at_least >= at_least]
-    for result in own:
+    known = bool(found) or not any(c.verdict.is_undecided for c in classes)
+    largest_classes = [c for c in classes if c.verdict.is_yes and c.extent.at_least >= at_least]
+    for result in largest_classes if known else ():
         inside = [p for p in singular if p.defects.types == result.types and p.extent.at_least >= at_least]
         if inside:
             largest = max(inside, key=lambda p: p.extent.at_least)
             extent = union(p.extent for p in inside)
             remark = f"every configuration of this piece is singular: {result.types}"
             found.append(SpacePiece(extent, smooth, largest.defects, largest.verdict, largest.basis, remark))
-    if found and (open_ones := [c for c in classes if _may_be_a_piece(c, at_least)]):
-        found.append(_perhaps(open_ones, smooth))
+    open_ones = [c for c in classes if _may_be_a_piece(c, at_least) or c.types in small]
+    beside = [c for c in open_ones if c not in largest_classes]
+    if not known:
+        found.append(_perhaps([*largest_classes, *beside], smooth))
+    elif found and beside:
+        found.append(_perhaps(beside, smooth))
     return tuple(found)
+
+
+def _is_small(piece: Piece, usual: int) -> bool:
+    """Whether a piece of singular configurations is smaller than all regular ones together may be."""
+    return bool(piece.defects.types) and piece.verdict.is_yes and piece.extent.at_least < usual
 
 
 def _may_be_a_piece(result: ClassResult, at_least: int) -> bool:
@@ -90,7 +104,7 @@ def _may_be_a_piece(result: ClassResult, at_least: int) -> bool:
 
 def _perhaps(results: Sequence[ClassResult], smooth: str) -> SpacePiece:
     """Classes that may be pieces of the space by themselves: nothing is known of these pieces."""
-    reasons = dict.fromkeys(c.extent.open or c.verdict.reason for c in results)
+    reasons = dict.fromkeys(c.extent.open or c.verdict.reason or _UNKNOWN for c in results)
     named = "; ".join(str(c.types) for c in results)
     verdict = Verdict.undecided("; ".join(reasons))
     remark = f"perhaps a piece of singular configurations alone: {named}"

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from singsym.classes.classify import classify
 from singsym.classes.configuration_space import configuration_space, smoothness
+from singsym.classes.result import Piece
 from singsym.classes.taxonomy.types import SingularityType as T
 from singsym.conditions.conditions import conditions
 from singsym.effort.verdict import Verdict
@@ -29,11 +30,11 @@ def test_a_class_that_is_open_may_be_a_piece_by_itself() -> None:
     classes = [left if c is still else c for c in result.classes]
     pieces = [p for c in classes for p in c.pieces]
     given = conditions(result.equation, result.reduction)
-    found = configuration_space(mechanism, given, pieces, classes, smoothness(mechanism, given, classes))
-    assert [piece.dimension for piece in found] == [0, None]
-    assert found[1].verdict.is_undecided
-    assert found[1].extent.open == LATE
-    assert "RI, IO" in found[1].remark
+    (found,) = configuration_space(mechanism, given, pieces, classes, smoothness(mechanism, given, classes))
+    assert found.dimension is None
+    assert found.verdict.is_undecided
+    assert LATE in found.extent.open
+    assert "RI, IO" in found.remark
     smaller = [replace(left, extent=Extent(-1, -1)) if c is left else c for c in classes]
     assert len(configuration_space(mechanism, given, pieces, smaller, ("undecided", ""))) == 1
 
@@ -54,3 +55,29 @@ def test_an_over_constrained_linkage_with_more_tangents_than_motions() -> None:
     )
     (space,) = classify(shaky, cache=False).configuration_space
     assert (space.dimension, space.smooth) == (0, "undecided")
+
+
+def test_small_parts_of_the_space_itself_are_not_called_pieces_of_it() -> None:
+    """The four-bar's curve with its singular points, found without a condition: they lie on the curve."""
+    mechanism = load("fourbar")
+    result = classify(mechanism, cache=False)
+    given = conditions(result.equation, result.reduction)
+    whole = [Piece((), s.basis, (), s.defects, s.verdict, s.extent) for s in result.configuration_space]
+    points = [replace(p, path=()) for c in result.classes for p in c.pieces]
+    found = configuration_space(mechanism, given, [*whole, *points], result.classes, ("yes", ""))
+    assert [piece.dimension for piece in found] == [1, None]
+    assert found[1].verdict.is_undecided
+    assert "RI, IO" in found[1].remark
+
+
+def test_where_all_is_open_the_largest_class_known_is_not_the_space() -> None:
+    """The regular configurations may not have been found yet."""
+    mechanism = load("fourbar")
+    result = classify(mechanism, cache=False)
+    given = conditions(result.equation, result.reduction)
+    unknown = {"verdict": Verdict.undecided(LATE), "extent": Extent(open=LATE)}
+    classes = [c if c.verdict.is_yes else replace(c, **unknown) for c in result.classes]
+    pieces = [p for c in result.classes for p in c.pieces]
+    (found,) = configuration_space(mechanism, given, pieces, classes, ("undecided", ""))
+    assert found.dimension is None
+    assert found.verdict.is_undecided
