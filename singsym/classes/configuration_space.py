@@ -83,10 +83,10 @@ def configuration_space(
             found.append(SpacePiece(extent, smooth, largest.defects, largest.verdict, largest.basis, remark))
     open_ones = [c for c in classes if _may_be_a_piece(c, at_least) or c.types in small]
     beside = [c for c in open_ones if c not in largest_classes]
-    if not known:
-        found.append(_perhaps([*largest_classes, *beside], smooth))
-    elif found and beside:
+    if known and found and beside:
         found.append(_perhaps(beside, smooth))
+    elif not known and largest_classes:
+        found.append(_perhaps([*largest_classes, *beside], smooth))
     return tuple(found)
 
 
