@@ -8,13 +8,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from singsym.classes.strata import ground as ground_module
-from singsym.classes.strata.block_rank import BlockRank, block_rank, union_of_loci
+from singsym.classes.strata.block_rank import BlockRank, block_rank, expanded, union_of_loci
 from singsym.classes.strata.ground import Ground, NotEvident
 from singsym.classes.strata.patches import Patch
 from singsym.classes.strata.ranks import RankProblem, ranked, relevant
 from singsym.classes.taxonomy.types import Defects, SingularityType, feasible_defects
 from singsym.effort import patience
 from singsym.effort.budget import Undecided, current
+from singsym.kinematics.nonzero import Certifier
+from singsym.kinematics.placement import ConfigurationSpace
 from singsym.polynomials import Polynomial, PolynomialMatrix, Ring
 from singsym.varieties.decomposition import decompose
 from singsym.varieties.real.numerical.sampling import numerical_points
@@ -170,3 +172,20 @@ def test_minors_that_are_small_at_known_points_do_not_leave_no_locus() -> None:
     assert found.rank == 2
     loci, _ = union_of_loci(found.minors, certifier)
     assert any(all(p.evaluate((1.0, 1.0, 1.0)) == 0 for p in locus) for locus in loci)
+
+
+def test_a_determinant_that_is_too_large_asks_for_an_entry_that_may_vanish() -> None:
+    """A shorter one that is excluded from being zero is known: to ask for it again would never end."""
+    ring = Ring(("x", "y", *(f"a{k}" for k in range(8))))
+    p, q, *others = ring.gens
+    long = sum(others, start=ring.one) ** 2
+    rows = [[p if i == j == 0 else q + 2 if i == j == 1 else long for j in range(8)] for i in range(8)]
+    square = PolynomialMatrix.of(ring, rows)
+    certifier = Certifier(ConfigurationSpace(ring, (), exclusions=((p,),)))
+    with pytest.raises(NotEvident) as asked:
+        expanded(square, certifier)
+    assert asked.value.polynomial == q + 2
+    every = Certifier(ConfigurationSpace(ring, (), exclusions=((p,), (q + 2,), (long,))))
+    with pytest.raises(Undecided, match="too large") as doubt:
+        expanded(square, every)
+    assert not isinstance(doubt.value, NotEvident)
