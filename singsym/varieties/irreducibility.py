@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import combinations_with_replacement
+from functools import partial
+from itertools import combinations_with_replacement, islice
 from math import comb
 from random import Random
 
-from flint import fmpq, fmpq_mat, fmpq_poly, fmpz_mat, nmod_mat
+from flint import fmpq, fmpq_mat, fmpq_poly, fmpz_mat, nmod_mat, nmod_poly
 
 from singsym.effort import chance
 from singsym.effort.budget import current
@@ -24,6 +25,8 @@ from singsym.varieties.torsion import NormalForms, off_free, presentation, torsi
 
 _LARGEST_FIBRE = 120
 _LARGEST_SEARCH = 330
+_PRIMES = 8
+"""Modulo so many primes polynomials are factored at most, to see them irreducible over Q."""
 
 
 @dataclass(frozen=True)
@@ -218,14 +221,26 @@ def _at_fibre(place: Coordinates, rng: Random) -> Known[Splitting]:
             continue
         if len(standard_monomials(leading_exponents(basis), len(inner.names))) > _LARGEST_FIBRE:
             return premises.conclude(Splitting())
-        fibre = quotient_algebra(inner, basis)
+        fibre = quotient_algebra(inner, basis, partial(current().check, "decomposition"))
+        may_be_field = True
         for count, form in enumerate(_forms(inner, rng)):
-            minimal = _minimal_polynomial(fibre, form)
-            factors = minimal.factor()[1]
+            current().check("decomposition")
+            action = _action(fibre, form)
+            degree = next(_residues(action)).degree()
+            generates = degree == fibre.dimension
+            if generates and may_be_field:
+                irreducible = _is_irreducible(action)
+                if irreducible:
+                    return premises.conclude(Splitting(prime=place.is_finite))
+                may_be_field = irreducible is None
+            if not (generates and may_be_field) and not (count and _is_liftable(place, degree)):
+                continue
+            factors = action.minpoly().factor()[1]
             if len(factors) == 1 and factors[0][1] == 1:
-                if minimal.degree() == fibre.dimension:
+                if generates:
                     return premises.conclude(Splitting(prime=place.is_finite))
                 continue
+            may_be_field = may_be_field and not generates
             if not count:
                 continue  # a simpler form gives simpler factors
             pieces = _lift(place, ring.convert(form), factors)
@@ -234,12 +249,41 @@ def _at_fibre(place: Coordinates, rng: Random) -> Known[Splitting]:
     return premises.conclude(Splitting())
 
 
-def _minimal_polynomial(fibre: Algebra, form: Polynomial) -> fmpq_poly:
-    """The minimal polynomial over Q of a linear form in the algebra."""
+def _action(fibre: Algebra, form: Polynomial) -> fmpq_mat:
+    """Multiplication by a linear form."""
     matrix = fmpq_mat(fibre.dimension, fibre.dimension)
     for exponents, c in form.terms():
         matrix += fibre.matrices[exponents.index(1)] * c
-    return matrix.minpoly()
+    return matrix
+
+
+def _residues(action: fmpq_mat) -> Iterator[nmod_poly]:
+    """The minimal polynomials modulo random primes: none is of a larger degree than the one over Q."""
+    whole, denominator = action.numer_denom()
+    for prime in chance.random_primes("fibres", bits=62, avoiding=(int(denominator),)):
+        yield (nmod_mat(whole, prime) * pow(int(denominator), -1, prime)).minpoly()
+
+
+def _is_irreducible(action: fmpq_mat) -> bool | None:
+    """Whether the characteristic polynomial is irreducible over Q: by degrees of factors modulo primes.
+
+    Lemma: where it is a product over Q, its factors are such modulo a prime that divides no denominator
+    (Gauss), so that their degrees are sums of degrees of irreducible factors there.
+    False, which proves nothing: it seems to have a double root.
+    """
+    size = action.nrows()
+    common = set(range(1, size))
+    for residue in islice(_residues(action), _PRIMES):
+        factors = residue.factor()[1]
+        if residue.degree() < size or any(power > 1 for _, power in factors):
+            return False
+        sums = {0}
+        for factor, _ in factors:
+            sums |= {known + factor.degree() for known in sums}
+        common &= sums
+        if not common:
+            return True
+    return None
 
 
 def _forms(ring: Ring, rng: Random) -> Iterator[Polynomial]:
@@ -293,6 +337,15 @@ def _value(coefficients: Sequence[Polynomial], form: Polynomial, place: Coordina
     return value
 
 
+def _is_liftable(place: Coordinates, least: int) -> bool:
+    """Whether `_lift` would look for factors where a form's minimal polynomial has such a degree at least."""
+    return not place.dimension or _is_searched(place.dimension + 1, least)
+
+
+def _is_searched(count: int, degree: int) -> bool:
+    return comb(degree + count, count) <= _LARGEST_SEARCH
+
+
 def relation(basis: Sequence[Polynomial], forms: Sequence[Polynomial], least: int = 1) -> Polynomial | None:
     """The polynomial of least total degree that vanishes on `forms` modulo a Groebner basis, or None.
 
@@ -309,7 +362,7 @@ def relation(basis: Sequence[Polynomial], forms: Sequence[Polynomial], least: in
     exponents: list[Exponents] = [(0,) * len(forms)]
     values = {exponents[0]: ring.one}
     degree = 0
-    while comb(max(degree + 1, least) + len(forms), len(forms)) <= _LARGEST_SEARCH:
+    while _is_searched(len(forms), max(degree + 1, least)):
         degree += 1
         for chosen in combinations_with_replacement(range(len(forms)), degree):
             current().check("relation")
