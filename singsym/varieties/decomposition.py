@@ -21,7 +21,7 @@ from singsym.elimination.ideal import Ideal
 from singsym.elimination.linear_substitution import Substitution, shortest_substitution
 from singsym.elimination.memo import remember
 from singsym.polynomials import Equations, Polynomial, Ring
-from singsym.varieties.irreducibility import independent_variables, leading_exponents
+from singsym.varieties.coordinates import independent_variables, leading_exponents
 from singsym.varieties.soon import analysed, holds_one, holds_powers_of_one, is_inside, saturated
 from singsym.varieties.splitting import (
     factor_equations,
