@@ -47,7 +47,7 @@ def value_at(polynomial: Polynomial, point: Sequence[float]) -> float:
     return float(terms_at(polynomial, point).sum())
 
 
-@lru_cache(maxsize=256)
+@lru_cache(maxsize=64)
 def _arrays(polynomial: Polynomial) -> tuple[Floats, NDArray[np.intp]]:
     """The coefficients, and for each variable its exponents."""
     import numpy as np
@@ -58,7 +58,7 @@ def _arrays(polynomial: Polynomial) -> tuple[Floats, NDArray[np.intp]]:
     return coefficients, np.ascontiguousarray(exponents.T)
 
 
-@lru_cache(maxsize=2**12)
+@lru_cache(maxsize=2**10)
 def largest_coefficient(polynomial: Polynomial) -> float:
     """The absolute value of the largest coefficient; 0 without terms.
 
