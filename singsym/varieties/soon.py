@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from singsym.effort.attempts import attempt
+from singsym.effort.budget import current
 from singsym.effort.patience import SPLITTING
 from singsym.effort.verdict import Known, Premises
 from singsym.elimination.ideal import Ideal
@@ -30,7 +31,7 @@ def analysed(ideal: Ideal, unmixed: bool) -> Known[Splitting]:
     return Known(Splitting(beside=ideal.ring.one, macaulay=True) if unmixed else Splitting())
 
 
-_SQUARINGS, _LONGEST = 2, 300
+_SQUARINGS, _LONGEST = 2, 60
 """So often an equation is squared to see whether a power of it is in an ideal, and no longer ones are."""
 
 
@@ -55,6 +56,7 @@ def holds_powers_of_one(ideal: Ideal, sets: Iterable[Equations]) -> Known[bool]:
     premises = Premises()
 
     def has_power(p: Polynomial) -> bool:
+        current().check("decomposition")
         for _ in range(_SQUARINGS):
             p = premises.take(ideal.reduce(p))
             if not p or len(p) > _LONGEST:
