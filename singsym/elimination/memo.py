@@ -22,6 +22,8 @@ from singsym.elimination import engines
 Value = TypeVar("Value")
 
 _LIMIT = 20_000
+_AS_LONG = 1.05
+"""So many times as much time as there was before will hardly make an answer better."""
 
 
 @dataclass(frozen=True)
@@ -34,7 +36,7 @@ class _Entry:
 
     def will_do(self, budget: Budget | None) -> bool:
         """Whether it is what would be found in that budget as well."""
-        return not self.cuts or _time_left(budget) <= self.time
+        return not self.cuts or _time_left(budget) <= _AS_LONG * self.time
 
 
 _known: OrderedDict[Hashable, _Entry] = OrderedDict()

@@ -7,14 +7,14 @@ monomial is the product of an earlier one and a variable.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from singsym.polynomials.matrix import PolynomialMatrix
-from singsym.polynomials.polynomial import Exponents, Polynomial
+from singsym.polynomials.polynomial import Equations, Exponents, Polynomial
 from singsym.polynomials.ring import Ring
 from singsym.polynomials.sizes import largest_term, variable_sizes
 
@@ -106,9 +106,7 @@ class CompiledMap:
 
         Coefficients may be too large for doubles; they are divided by the largest one first.
         """
-        sizes = variable_sizes(ring, polynomials) if sizes is None else sizes
-        polynomials = [p / max(abs(c) for c in p.value.coeffs()) if p else p for p in polynomials]
-        return cls(polynomials, ring, sizes, [largest_term(p, sizes) or 1.0 for p in polynomials])
+        return _balanced(tuple(polynomials), ring, None if sizes is None else tuple(sizes))
 
     @cached_property
     def sizes(self) -> Floats:
@@ -161,6 +159,14 @@ class CompiledMap:
     def magnitudes(self, points: Floats, sizes: Floats) -> Floats:
         """Sums of the absolute values of all terms, where no variable is taken for smaller than its size."""
         return self._values.absolute(np.maximum(np.abs(points), sizes))
+
+
+@lru_cache(maxsize=64)
+def _balanced(polynomials: Equations, ring: Ring, sizes: tuple[float, ...] | None) -> CompiledMap:
+    """See `CompiledMap.balanced`; kept, as the same equations are compiled for each search of a point."""
+    sizes = variable_sizes(ring, polynomials) if sizes is None else sizes
+    scaled = [p / max(abs(c) for c in p.value.coeffs()) if p else p for p in polynomials]
+    return CompiledMap(scaled, ring, sizes, [largest_term(p, sizes) or 1.0 for p in scaled])
 
 
 class _Combinations:

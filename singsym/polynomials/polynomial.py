@@ -52,7 +52,7 @@ class Polynomial:
     [(x + y, 1), (x - y, 1)]
     """
 
-    __slots__ = ("_degrees", "_hash", "_integer", "_terms", "ring", "value")
+    __slots__ = ("_degrees", "_hash", "_integer", "_terms", "_text", "ring", "value")
 
     ring: Ring
     value: fmpq_mpoly
@@ -61,6 +61,7 @@ class Polynomial:
     _hash: int
     _integer: fmpz_mpoly
     _terms: tuple[tuple[int, int, tuple[int, ...]], ...]
+    _text: str
 
     def __init__(self, ring: Ring, value: fmpq_mpoly) -> None:
         object.__setattr__(self, "ring", ring)
@@ -323,9 +324,8 @@ class Polynomial:
         try:
             return self._terms
         except AttributeError:
-            places = (tuple(i for i, e in enumerate(m) for _ in range(e)) for m, _ in self.terms())
-            numbers = ((int(c.p), int(c.q)) for _, c in self.terms())
-            table = tuple((p, q, own) for (p, q), own in zip(numbers, places, strict=True))
+            terms = ((c, tuple(i for i, e in enumerate(m) for _ in range(e))) for m, c in self.terms())
+            table = tuple((int(c.p), int(c.q), places) for c, places in terms)
             object.__setattr__(self, "_terms", table)
             return self._terms
 
@@ -348,7 +348,9 @@ class Polynomial:
     # -- display ---------------------------------------------------------------------------------
 
     def __repr__(self) -> str:
-        return str(self.value)
+        if not hasattr(self, "_text"):
+            object.__setattr__(self, "_text", str(self.value))
+        return self._text
 
     def short_text(self, longest: int | None = 8) -> str:
         """The polynomial as a person writes it, cut after `longest` terms, with the number of those left out.

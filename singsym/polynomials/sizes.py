@@ -11,6 +11,7 @@ from math import log, prod
 
 from singsym.polynomials.polynomial import Polynomial
 from singsym.polynomials.ring import Ring
+from singsym.polynomials.terms import MANY, largest_coefficient, terms_at
 
 
 def variable_sizes(ring: Ring, polynomials: Iterable[Polynomial]) -> tuple[float, ...]:
@@ -55,9 +56,11 @@ def largest_term(polynomial: Polynomial, sizes: Sequence[float]) -> float:
     >>> largest_term(3 * x**2 - 100 * y, (10.0, 1.0))
     300.0
     """
-    coefficients = (abs(int(c.p)) / int(c.q) for c in polynomial.value.coeffs())
     if all(size == 1.0 for size in sizes):
-        return max(coefficients, default=0.0)
+        return largest_coefficient(polynomial)
+    if len(polynomial) >= MANY:
+        return float(abs(terms_at(polynomial, sizes)).max())
+    coefficients = (abs(int(c.p)) / int(c.q) for c in polynomial.value.coeffs())
     monomials = (
         prod(s**e for s, e in zip(sizes, map(int, m), strict=True) if e) for m in polynomial.value.monoms()
     )

@@ -21,8 +21,8 @@ from singsym.elimination.ideal import Ideal
 from singsym.elimination.linear_substitution import Substitution, shortest_substitution
 from singsym.elimination.memo import remember
 from singsym.polynomials import Equations, Polynomial, Ring
-from singsym.varieties.irreducibility import independent_variables, leading_exponents
-from singsym.varieties.soon import analysed, holds_one, is_inside, saturated
+from singsym.varieties.coordinates import independent_variables, leading_exponents
+from singsym.varieties.soon import analysed, holds_one, holds_powers_of_one, is_inside, saturated
 from singsym.varieties.splitting import (
     factor_equations,
     irreducible_factors,
@@ -152,8 +152,7 @@ def _in_ring(piece: Component, ring: Ring) -> Known[Component]:
 def _all_in_ring(pieces: Iterable[Component], ring: Ring) -> Known[tuple[Component, ...]]:
     """The cylinders over pieces that lie in no other one."""
     premises = Premises()
-    turned = [premises.take(_in_ring(piece, ring)) for piece in pieces]
-    return premises.pass_on(prune(turned))
+    return premises.pass_on(prune([premises.take(_in_ring(piece, ring)) for piece in pieces]))
 
 
 # -- branching on the given equations ------------------------------------------------------------------
@@ -341,6 +340,8 @@ def _by_eliminant(system: _System, given: Known[Ideal], dimension: int) -> Known
     proven = premises.certainty == "proven"
     if len(ideal.generators) == 1:
         return premises.conclude((Component(ideal, proven, dimension, "Cohen-Macaulay"),))
+    if premises.take(holds_powers_of_one(ideal, system.excluded)):
+        return premises.conclude(())
     found = premises.take(analysed(ideal, system.macaulay and system.smallest == dimension))
     if found.factors and not any(premises.take(ideal.contains(f)) for f in found.factors):
         parts = premises.take(_along(system, ideal, found.factors))

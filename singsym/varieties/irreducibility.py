@@ -8,22 +8,32 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import combinations_with_replacement
+from functools import partial
+from itertools import combinations_with_replacement, islice
 from math import comb
 from random import Random
 
-from flint import fmpq, fmpq_mat, fmpq_poly, fmpz_mat, nmod_mat
+from flint import fmpq, fmpq_mat, fmpq_poly, fmpz_mat, nmod_mat, nmod_poly
 
 from singsym.effort import chance
 from singsym.effort.budget import current
 from singsym.effort.verdict import Known, Premises
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Exponents, Polynomial, Ring
+from singsym.varieties.coordinates import (
+    Coordinates,
+    Turned,
+    coordinates,
+    independent_variables,
+    leading_exponents,
+)
 from singsym.varieties.real.points.quotient_algebra import Algebra, quotient_algebra, standard_monomials
 from singsym.varieties.torsion import NormalForms, off_free, presentation, torsion_support
 
 _LARGEST_FIBRE = 120
 _LARGEST_SEARCH = 330
+_PRIMES = 8
+"""Modulo so many primes polynomials are factored at most, to see them irreducible over Q."""
 
 
 @dataclass(frozen=True)
@@ -40,102 +50,6 @@ class Splitting:
     prime: bool = False
     beside: Polynomial | None = None
     macaulay: bool = False
-
-
-def leading_exponents(basis: Sequence[Polynomial]) -> list[Exponents]:
-    """The exponents of the leading terms."""
-    return [p.leading_term[0] for p in basis]
-
-
-def independent_variables(leads: Sequence[Exponents], count: int) -> tuple[int, ...]:
-    """Largest set of variables (indices) with no power product among the leading monomials' multiples.
-
-    Their number is the dimension of the ideal; variables without a pure power are preferred.
-
-    >>> independent_variables([(2, 0, 0), (1, 1, 0)], 3)
-    (1, 2)
-    """
-    supports = {frozenset(i for i, e in enumerate(m) if e) for m in leads}
-    minimal = [s for s in supports if not any(t < s for t in supports)]
-    pure = {i for s in minimal if len(s) == 1 for i in s}
-    free = [i for i in range(count) if i not in pure]
-    left_out = _smallest_cover([s - pure for s in minimal if len(s) > 1 and s.isdisjoint(pure)])
-    return tuple(i for i in free if i not in left_out)
-
-
-def _smallest_cover(supports: list[frozenset[int]]) -> frozenset[int]:
-    """A smallest set of indices that meets all supports, by branch and bound."""
-    best = frozenset[int]().union(*supports)
-
-    def search(left: list[frozenset[int]], chosen: frozenset[int]) -> None:
-        nonlocal best
-        if not left:
-            best = chosen if len(chosen) < len(best) else best
-        elif len(chosen) + 1 < len(best):
-            for i in sorted(sorted(left, key=len)[0]):
-                search([s for s in left if i not in s], chosen | {i})
-
-    search(supports, frozenset())
-    return best
-
-
-@dataclass(frozen=True)
-class Coordinates:
-    """An ideal in coordinates in which the last `dimension` variables are independent.
-
-    `back` maps a polynomial of these coordinates to the original ring through `images`.
-    """
-
-    ring: Ring
-    basis: tuple[Polynomial, ...]
-    dimension: int
-    original: Ring
-    images: tuple[tuple[str, Polynomial], ...] = ()
-
-    def back(self, p: Polynomial) -> Polynomial:
-        """A polynomial of these coordinates in the original ones."""
-        return self.original.convert(p).substitute(dict(self.images))
-
-    @property
-    def split(self) -> int:
-        """The number of dependent variables, which come first."""
-        return len(self.ring.names) - self.dimension
-
-    @property
-    def is_finite(self) -> bool:
-        """Whether Q[x]/I is a finite module over Q[u]: every dependent variable has a pure power."""
-        leads = leading_exponents(self.basis)
-        return all(any(m[i] and not any(m[:i] + m[i + 1 :]) for m in leads) for i in range(self.split))
-
-    @property
-    def is_free(self) -> bool:
-        """Whether no leading monomial involves u; with finiteness the module is free, hence I unmixed."""
-        return not any(any(m[self.split :]) for m in leading_exponents(self.basis))
-
-
-def coordinates(ideal: Ideal, rng: Random) -> Iterator[Known[Coordinates]]:
-    """The ideal in its own coordinates, independent variables last, then after small linear changes."""
-    ring, premises = ideal.ring, Premises()
-    basis = premises.take(ideal.groebner_basis())
-    chosen = independent_variables(leading_exponents(basis), len(ring.names))
-    last = tuple(ring.names[i] for i in chosen)
-    dependent = tuple(n for n in ring.names if n not in last)
-    turned = Ring(dependent + last, "degrevlex", ring.constants)
-    if turned.names != ring.names:
-        basis = premises.take(Ideal(turned, tuple(turned.convert(p) for p in basis)).groebner_basis())
-    yield premises.conclude(Coordinates(turned, basis, len(last), ring))
-    if not last:
-        return
-    constants = {c.name for c in ring.constants}
-    movable = [n for n in dependent if n not in constants]
-    for _ in range(2):
-        shift = {
-            u: sum((turned.gen(n) * rng.choice((-1, 1, 2)) for n in movable), start=turned.zero) for u in last
-        }
-        there = {u: turned.gen(u) + s for u, s in shift.items()}
-        changed = premises.take(Ideal(turned, tuple(p.substitute(there) for p in basis)).groebner_basis())
-        images = tuple((u, ring.convert(turned.gen(u) - s)) for u, s in shift.items())
-        yield premises.conclude(Coordinates(turned, changed, len(last), ring, images))
 
 
 def analyse(ideal: Ideal, *, macaulay: bool = False, seed: int = 0) -> Known[Splitting]:
@@ -159,16 +73,18 @@ def analyse(ideal: Ideal, *, macaulay: bool = False, seed: int = 0) -> Known[Spl
         place = premises.take(known)
         found = premises.take(_at_fibre(place, rng))
         if found.factors:
-            return premises.conclude(Splitting(tuple(place.back(f).primitive() for f in found.factors)))
+            return premises.conclude(found)
         best = replace(best, prime=best.prime or found.prime)
-        if best.beside is None and place.is_finite:
-            best = replace(best, beside=_beside(place, rng), macaulay=place.is_free or place.dimension == 1)
+        if best.beside is None and premises.take(place.is_finite()):
+            turned = premises.take(place.turned())
+            beside, macaulay = _beside(turned, rng), turned.is_free or place.dimension == 1
+            best = replace(best, beside=beside, macaulay=macaulay)
         if best.prime and best.beside is not None:
             break
     return premises.conclude(best)
 
 
-def _beside(place: Coordinates, rng: Random) -> Polynomial | None:
+def _beside(place: Turned, rng: Random) -> Polynomial | None:
     """A polynomial in u that vanishes where the finite module Q[x]/I over Q[u] has torsion; 1 without any.
 
     Off its zeros the module is torsion-free, so that I is unmixed there; along a curve it is free.
@@ -177,7 +93,7 @@ def _beside(place: Coordinates, rng: Random) -> Polynomial | None:
         return place.original.one
     leads = [m[: place.split] for m in leading_exponents(place.basis) if not any(m[place.split :])]
     within = standard_monomials(leads, place.split)
-    if place.dimension > 1:
+    if len(place.images) > 1:
         found = off_free(place.ring, place.basis, within)
         return None if found is None else place.back(found)
     module = presentation(place.ring, place.basis, within)
@@ -202,44 +118,80 @@ def _at_fibre(place: Coordinates, rng: Random) -> Known[Splitting]:
     Q[u], u is independent (as many variables as the dimension), and all components of full dimension
     dominate u-space.
     """
-    ring = place.ring
-    inner = ring.with_names(ring.names[: place.split])
+    inner = place.inner
     if not inner.names:
         return Known(Splitting(prime=True))
     premises = Premises()
     for attempt in range(2):
-        values = {
-            u: fmpq(rng.randint(2, 9 + 20 * attempt), rng.choice((1, 1, 2)))
-            for u in ring.names[place.split :]
-        }
-        special = tuple(inner.convert(p.substitute(values)) for p in place.basis)
-        basis = premises.take(Ideal(inner, tuple(p for p in special if p)).groebner_basis())
+        values = {u: fmpq(rng.randint(2, 9 + 20 * attempt), rng.choice((1, 1, 2))) for u in place.last}
+        basis = premises.take(Ideal(inner, place.fibre(values)).groebner_basis())
         if len(independent_variables(leading_exponents(basis), len(inner.names))) or basis[0].is_constant:
             continue
         if len(standard_monomials(leading_exponents(basis), len(inner.names))) > _LARGEST_FIBRE:
             return premises.conclude(Splitting())
-        fibre = quotient_algebra(inner, basis)
+        fibre = quotient_algebra(inner, basis, partial(current().check, "decomposition"))
+        may_be_field = True
         for count, form in enumerate(_forms(inner, rng)):
-            minimal = _minimal_polynomial(fibre, form)
-            factors = minimal.factor()[1]
-            if len(factors) == 1 and factors[0][1] == 1:
-                if minimal.degree() == fibre.dimension:
-                    return premises.conclude(Splitting(prime=place.is_finite))
+            current().check("decomposition")
+            action = _action(fibre, form)
+            degree = next(_residues(action)).degree()
+            generates = degree == fibre.dimension
+            if generates and may_be_field:
+                irreducible = _is_irreducible(action)
+                if irreducible:
+                    return premises.pass_on(place.is_finite().map(lambda finite: Splitting(prime=finite)))
+                may_be_field = irreducible is None
+            if not (generates and may_be_field) and not (count and _is_liftable(place, degree)):
                 continue
+            factors = action.minpoly().factor()[1]
+            if len(factors) == 1 and factors[0][1] == 1:
+                if generates:
+                    return premises.pass_on(place.is_finite().map(lambda finite: Splitting(prime=finite)))
+                continue
+            may_be_field = may_be_field and not generates
             if not count:
                 continue  # a simpler form gives simpler factors
-            pieces = _lift(place, ring.convert(form), factors)
+            pieces = _lift(place, place.ring.convert(form), factors)
             if pieces:
-                return premises.conclude(Splitting(pieces))
+                return premises.conclude(Splitting(tuple(p.primitive() for p in pieces)))
     return premises.conclude(Splitting())
 
 
-def _minimal_polynomial(fibre: Algebra, form: Polynomial) -> fmpq_poly:
-    """The minimal polynomial over Q of a linear form in the algebra."""
+def _action(fibre: Algebra, form: Polynomial) -> fmpq_mat:
+    """Multiplication by a linear form."""
     matrix = fmpq_mat(fibre.dimension, fibre.dimension)
     for exponents, c in form.terms():
         matrix += fibre.matrices[exponents.index(1)] * c
-    return matrix.minpoly()
+    return matrix
+
+
+def _residues(action: fmpq_mat) -> Iterator[nmod_poly]:
+    """The minimal polynomials modulo random primes: none is of a larger degree than the one over Q."""
+    whole, denominator = action.numer_denom()
+    for prime in chance.random_primes("fibres", bits=62, avoiding=(int(denominator),)):
+        yield (nmod_mat(whole, prime) * pow(int(denominator), -1, prime)).minpoly()
+
+
+def _is_irreducible(action: fmpq_mat) -> bool | None:
+    """Whether the characteristic polynomial is irreducible over Q: by degrees of factors modulo primes.
+
+    Lemma: where it is a product over Q, its factors are such modulo a prime that divides no denominator
+    (Gauss), so that their degrees are sums of degrees of irreducible factors there.
+    False, which proves nothing: it seems to have a double root.
+    """
+    size = action.nrows()
+    common = set(range(1, size))
+    for residue in islice(_residues(action), _PRIMES):
+        factors = residue.factor()[1]
+        if residue.degree() < size or any(power > 1 for _, power in factors):
+            return False
+        sums = {0}
+        for factor, _ in factors:
+            sums |= {known + factor.degree() for known in sums}
+        common &= sums
+        if not common:
+            return True
+    return None
 
 
 def _forms(ring: Ring, rng: Random) -> Iterator[Polynomial]:
@@ -265,7 +217,7 @@ def _lift(
         constant = place.ring.constant
         return tuple(_value([constant(c) for c in f.coeffs()], form, place) for f, _ in factors)
     least = sum(f.degree() * power for f, power in factors)
-    eliminant = relation(place.basis, (*place.ring.gens[place.split :], form), least)
+    eliminant = relation(place.basis, (*place.forms, form), least)
     if eliminant is None:
         return ()
     pieces = eliminant.factors()
@@ -275,12 +227,13 @@ def _lift(
 
 
 def _coefficients(p: Polynomial, place: Coordinates) -> list[Polynomial]:
-    """The coefficients of a polynomial in (u, l) as one in l, the lowest first, in the ring of the place."""
-    zeros = (0,) * place.split
-    table: dict[int, dict[Exponents, fmpq]] = {}
+    """The coefficients of a polynomial in (u, l) as one in l, the lowest first, in the ring's variables."""
+    ring, table = place.ring, dict[int, dict[Exponents, fmpq]]()
     for m, c in p.terms():
-        table.setdefault(m[-1], {})[(*zeros, *m[:-1])] = c
-    return [place.ring.from_dict(table.get(i, {})) for i in range(max(table) + 1)]
+        own = dict(zip(place.last, m, strict=False))
+        table.setdefault(m[-1], {})[tuple(own.get(name, 0) for name in ring.names)] = c
+    there = dict(zip(place.last, place.forms, strict=True))
+    return [ring.from_dict(table.get(i, {})).substitute(there) for i in range(max(table) + 1)]
 
 
 def _value(coefficients: Sequence[Polynomial], form: Polynomial, place: Coordinates) -> Polynomial:
@@ -291,6 +244,15 @@ def _value(coefficients: Sequence[Polynomial], form: Polynomial, place: Coordina
         current().check("decomposition")
         value = forms.reduce(value * form + c)
     return value
+
+
+def _is_liftable(place: Coordinates, least: int) -> bool:
+    """Whether `_lift` would look for factors where a form's minimal polynomial has such a degree at least."""
+    return not place.dimension or _is_searched(place.dimension + 1, least)
+
+
+def _is_searched(count: int, degree: int) -> bool:
+    return comb(degree + count, count) <= _LARGEST_SEARCH
 
 
 def relation(basis: Sequence[Polynomial], forms: Sequence[Polynomial], least: int = 1) -> Polynomial | None:
@@ -309,7 +271,7 @@ def relation(basis: Sequence[Polynomial], forms: Sequence[Polynomial], least: in
     exponents: list[Exponents] = [(0,) * len(forms)]
     values = {exponents[0]: ring.one}
     degree = 0
-    while comb(max(degree + 1, least) + len(forms), len(forms)) <= _LARGEST_SEARCH:
+    while _is_searched(len(forms), max(degree + 1, least)):
         degree += 1
         for chosen in combinations_with_replacement(range(len(forms)), degree):
             current().check("relation")

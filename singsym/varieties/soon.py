@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from singsym.effort.attempts import attempt
+from singsym.effort.budget import current
 from singsym.effort.patience import SPLITTING
 from singsym.effort.verdict import Known, Premises
 from singsym.elimination.ideal import Ideal
@@ -30,12 +31,40 @@ def analysed(ideal: Ideal, unmixed: bool) -> Known[Splitting]:
     return Known(Splitting(beside=ideal.ring.one, macaulay=True) if unmixed else Splitting())
 
 
+_SQUARINGS, _LONGEST = 2, 60
+"""So often an equation is squared to see whether a power of it is in an ideal, and no longer ones are."""
+
+
 def holds_one(ideal: Ideal, sets: Iterable[Equations]) -> Known[bool]:
     """Whether all equations of one of some sets are in an ideal."""
     premises = Premises()
     return premises.conclude(
         any(all(premises.take(ideal.contains(p)) for p in equations) for equations in sets)
     )
+
+
+def holds_powers_of_one(ideal: Ideal, sets: Iterable[Equations]) -> Known[bool]:
+    """Whether low powers of all equations of one of some sets are in an ideal: its zeros lie in that set.
+
+    Where an ideal is not reduced that is seen long before what it splits into.
+
+    >>> from singsym.polynomials import Ring
+    >>> x, y, z = Ring(("x", "y", "z")).gens
+    >>> [holds_powers_of_one(Ideal(x.ring, (x**2, y - z)), [s]).value for s in ((z, y), (x, x * z))]
+    [False, True]
+    """
+    premises = Premises()
+
+    def has_power(p: Polynomial) -> bool:
+        current().check("decomposition")
+        for _ in range(_SQUARINGS):
+            p = premises.take(ideal.reduce(p))
+            if not p or len(p) > _LONGEST:
+                break
+            p = p * p
+        return premises.take(ideal.contains(p))
+
+    return premises.conclude(any(all(map(has_power, equations)) for equations in sets))
 
 
 def is_inside(ideal: Ideal, sets: Iterable[Equations]) -> Known[bool]:

@@ -9,10 +9,11 @@ from dataclasses import replace
 
 from singsym.classes.strata.patches import Patch
 from singsym.effort import patience
-from singsym.effort.attempts import attempt
-from singsym.effort.budget import current
+from singsym.effort.attempts import attempt, cut_short
+from singsym.effort.budget import Budget, current
 from singsym.effort.verdict import Known, Premises, Verdict
 from singsym.elimination import engines
+from singsym.elimination.memo import remember
 from singsym.varieties.decomposition import Component
 from singsym.varieties.real.modules.module_points import has_no_assembly
 from singsym.varieties.real.numerical.sampling import Points, numerical_points
@@ -65,7 +66,8 @@ def is_proven_empty(
         return Verdict.undecided("that there is no complex point was not shown in time")
 
     def no_real_point() -> Verdict:
-        return is_empty_over_reals(chart.trimmed, current().part(seconds * longer), tries=0)
+        trimmed, limited = chart.trimmed, current().part(seconds * longer)
+        return remember("no real point", trimmed, lambda: _has_no_real_point(trimmed, limited), limited)
 
     doubtful = Verdict.undecided("that there is no real point was not shown in time")
     for proof in (no_assembly, no_complex_point, no_real_point):
@@ -75,6 +77,14 @@ def is_proven_empty(
         if answer.is_yes and modular:
             doubtful = answer
     return doubtful
+
+
+def _has_no_real_point(system: RealSystem, budget: Budget) -> Verdict:
+    """Whether a set is proven empty; branches that are split further often leave the same set to ask for."""
+    verdict = is_empty_over_reals(system, budget, tries=0)
+    if verdict.is_undecided:
+        cut_short("a proof that there is no real point")
+    return verdict
 
 
 def samples_of(component: Component, feasible: RealSystem) -> Known[Points | None]:

@@ -12,6 +12,7 @@ from math import prod
 from singsym.effort.chaos import strikes
 from singsym.polynomials import Polynomial
 from singsym.polynomials.sizes import largest_term
+from singsym.polynomials.terms import largest_coefficient, value_at
 from singsym.varieties.real.system import RealSystem
 
 NEAR = 1e-3
@@ -117,10 +118,10 @@ def is_large(
     Relative to its largest term where all variables have these sizes; to its coefficients without them; and
     more than what is left of the largest terms at the point by rounding.
     """
-    coefficient = largest_term(polynomial, (1.0,) * len(polynomial.ring.names))
+    coefficient = largest_coefficient(polynomial)
     size = coefficient if sizes is None else largest_term(polynomial, sizes)
     for x in points:
-        value = abs(polynomial.evaluate(x))
+        value = abs(value_at(polynomial, x))
         if value <= threshold * size:
             continue
         at = tuple(map(abs, x))

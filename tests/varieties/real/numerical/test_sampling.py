@@ -68,6 +68,6 @@ def test_what_is_large_is_seen_without_all_terms_at_a_point(monkeypatch: pytest.
 
     monkeypatch.setattr(sampling, "largest_term", noted)
     assert sampling.is_large(p, ((1.0, 2.0, 0.0),))
-    assert asked == [(1.0, 1.0, 1.0)]
+    assert not asked
     assert not sampling.is_large(x**2 - y**2 + 1, ((1e6, 1e6, 0.0),))
-    assert asked[1:] == [(1.0, 1.0, 1.0), (1e6, 1e6, 0.0)]
+    assert asked == [(1e6, 1e6, 0.0)]
