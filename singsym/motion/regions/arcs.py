@@ -116,7 +116,11 @@ class Arcs:
         places = np.arange(len(line), dtype=float)
         at = share * places[-1]
         near = self.curve.lifted(np.array([np.interp(at, places, column) for column in line.T]))
-        return self.motions.onto(self.motions.space.at(near)[0], near)
+        inputs, space = self.motions.space.at(near)[0], self.motions.space
+        if self.curve.label:
+            number = space.labels.index(self.curve.label)
+            inputs[number] = self.curve.value / space.units[number]
+        return self.motions.onto(inputs, near)
 
     def _region(self, point: Floats, signs: tuple[int, ...], piece: CurvePiece, cut: CutCurve) -> Region:
         ends = [cut.removed[k] for k in piece.points]

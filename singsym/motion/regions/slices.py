@@ -1,11 +1,11 @@
 """Curves in a surface of configurations, of which each region meets one: slices at values of an input.
 
-Lemma: let V be the real zeros of m - 2 equations in m variables, bounded, in which the Jacobian determinant D
-of the equations and both inputs has no zero off the borders; let h be an input, and U a region.  Let S hold
-the values of h wherever on V (a) two borders meet, (b) one border g vanishes together with the Jacobian
-determinant of the equations, g and h, (c) all polynomials of a hole vanish.  Then between two neighbours in S
-the values of h in U are all or none, and some are there; so U meets a slice h = t with one t from each
-interval, and as U is open in V, it holds a whole piece of that slice between borders, which is an arc.
+Lemma: let V be the real zeros of m - 2 equations in m variables, bounded within limits, in which the Jacobian
+determinant D of the equations and both inputs has no zero off the borders; let h be an input, and U a region.
+Let S hold the values of h wherever on V (a) two borders meet, (b) one border g vanishes together with the
+Jacobian determinant of the equations, g and h, (c) all polynomials of a hole vanish.  Then between two
+neighbours in S the values of h in U are all or none, and some are there; so U meets a slice h = t with one t
+from each interval, and as U is open in V, it holds a whole piece of that slice between borders, an arc.
 Proof: D has no zero in U, so h is open there, and its values are an open set that is not empty.  Let t be an
 end of it, not in S.  By compactness there is p in the closure of U with h(p) = t, not in U as h is open
 there.  So p is on a border, for where none vanishes a neighbourhood of p in V is in U; by (a) and (c) on one
@@ -80,6 +80,11 @@ class Slice:
         """The values of all variables, of those that are left."""
         return self._all.values(point)
 
+    @property
+    def value(self) -> float:
+        """About the value that is held: in radians, or a length."""
+        return math.atan2(self.held[1], self.held[0]) if len(self.held) == 2 else float(self.held[0])
+
     def is_at(self, values: arb) -> bool:
         """Whether the value that is held is among some: radians or lengths."""
         own = [arb(x.numerator) / x.denominator for x in self.held]
@@ -122,8 +127,8 @@ class Slices:
             raise Undecided(f"condition ({self.borders.unwritten[0]}) is not written out as one equation")
         if len(self._own) != len(self._free) - 2:
             raise Undecided("the configurations have not two variables more than equations")
-        if not is_bounded(self.space.equations):
-            raise Undecided("the configurations are not proven bounded by sums of squares")
+        if not is_bounded(self.space.equations, (*self.space.positive, *self.space.nonnegative)):
+            raise Undecided("the configurations are not proven bounded by sums of squares, nor by limits")
         dependent = self._jacobian(*(value.rate(self._slopes) for value in self.inputs.values))
         off = math.prod((b.polynomial for b in self.borders.singular), start=self.space.ring.one)
         singular = Ideal(self.space.ring, (*self._own, *self._relations, dependent))
@@ -165,7 +170,8 @@ class Slices:
             at_half_turn |= all(p.substitute(turned).is_zero for p in known)
         between = samples(roots(found, "t" if drive.is_angle else drive.names[0]))
         if not drive.is_angle:
-            yield from ((t,) for t in between)
+            is_square = self.inputs.values[self.number].length is None
+            yield from ((t,) for t in between if t > 0 or not is_square)
             return
         for t in between if at_half_turn or len(between) == 1 else between[1:]:
             yield (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)

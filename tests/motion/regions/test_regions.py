@@ -164,9 +164,45 @@ def test_the_five_bar_has_ten_regions() -> None:
     assert np.abs(np.array(sorted(counts.values())) - sorted(coarse.values())).max() <= 3
     # the lemma: each part is over one of the values at which slices are taken
     motions = FreeMotions(borders(velocity_equation(mechanism)), input_space(velocity_equation(mechanism)))
-    held = [math.atan2(s.held[1], s.held[0]) for s in Slices(motions.borders, motions.space, 0).slices]
+    held = [s.value for s in Slices(motions.borders, motions.space, 0).slices]
     for _, cells in parts:
         assert min(abs(a - x) for a in cells[:, 0] for x in held) < 2 * math.pi / 720
+
+
+TWO_LEGS = """
+name = "legs"
+inputs = ["P", "Q"]
+output = { velocity = "C" }
+
+[links]
+ground = { points = { A = [0, 0], D = [2, 0] } }
+cylinder1 = { points = { A = [0, 0] }, axes = { u = [1, 0] } }
+rod1 = { points = { C = [0, 0] }, axes = { u = [1, 0] } }
+cylinder2 = { points = { D = [0, 0] }, axes = { w = [1, 0] } }
+rod2 = { points = { C = [0, 0] }, axes = { w = [1, 0] } }
+
+[joints]
+A = "R"
+P = { type = "P", links = ["cylinder1", "rod1"], at = ["A", "C"], axis = "u" }
+D = "R"
+Q = { type = "P", links = ["cylinder2", "rod2"], at = ["D", "C"], axis = "w" }
+C = "R"
+
+[limits]
+"length(P)" = { min = 1, max = 3 }
+"length(Q)" = { min = 1, max = 3 }
+"""
+
+
+def test_two_legs_within_limits_have_two_regions() -> None:
+    """C is in both rings of 1 to 3 about A and D, off the line AD: above it and below are two parts.
+
+    C has no equations; that the legs are bounded by their limits alone is used.
+    """
+    found = regions(loads(TWO_LEGS), grid=16)
+    assert found.verdict.is_yes
+    assert len(found.regions) == found.at_least == 2
+    assert {np.sign(r.values["Cy"]) for r in found.regions} == {1, -1}
 
 
 def test_arcs_that_are_not_joined_leave_open_whether_regions_are_all(monkeypatch: pytest.MonkeyPatch) -> None:
