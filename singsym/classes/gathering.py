@@ -22,7 +22,12 @@ def gathered(pairs: Iterable[tuple[str, str]]) -> tuple[tuple[str, str], ...]:
         else:
             named.setdefault(what, [])
     return tuple(
-        ("; ".join(f"{name} {in_ranges(numbers, ' to ')}".strip() for name, numbers in named.items()), reason)
+        (
+            "; ".join(
+                f"{name} {in_ranges(sorted(numbers), ' to ')}".strip() for name, numbers in named.items()
+            ),
+            reason,
+        )
         for reason, named in by_reason.items()
     )
 

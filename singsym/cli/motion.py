@@ -6,7 +6,7 @@ Source: singsym's own.
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -54,7 +54,8 @@ def run_follow(chosen: argparse.Namespace) -> int:
     if chosen.output:
         drawable(Path(chosen.output))
     with _in_words():
-        found = _followed(mechanism, chosen)
+        start = _examined(mechanism, chosen, chosen.config) if chosen.config else None
+        found = _followed(mechanism, chosen, start)
         if chosen.output:
             from singsym.output.motion.follow_page import plot_margins
 
@@ -62,19 +63,29 @@ def run_follow(chosen: argparse.Namespace) -> int:
             say(f"written: {chosen.output}")
     from singsym.output.motion.follow_page import follow_data, follow_page
 
-    if chosen.format == "json":
-        emit_data(follow_data(mechanism.name, found))
-    else:
-        emit_page(follow_page(mechanism.name, found))
+    page, data = follow_page(mechanism.name, found), follow_data(mechanism.name, found)
+    _emit_noted(chosen, page, data, _notes((chosen.config, start)))
     return 0 if found.is_decided else UNDECIDED
 
 
-def _followed(mechanism: Mechanism, chosen: argparse.Namespace) -> FollowedMotion:
+def _notes(*given: tuple[str, Analysis | None]) -> list[str]:
+    """What is to be said of configurations that files give: freedoms that they leave, and the like."""
+    return [f"{file}: {remark}" for file, found in given if found is not None for remark in found.remarks]
+
+
+def _emit_noted(chosen: argparse.Namespace, page: Page, data: dict[str, Any], notes: Sequence[str]) -> None:
+    """A page or plain data, with notes."""
+    if chosen.format == "json":
+        emit_data({**data, "notes": [*notes]} if notes else data)
+    else:
+        emit_page((*page, "\n".join(f"Note: {note}." for note in notes)) if notes else page)
+
+
+def _followed(mechanism: Mechanism, chosen: argparse.Namespace, start: Analysis | None) -> FollowedMotion:
     from singsym.motion.follow import follow
     from singsym.motion.trajectory import Trajectory
 
     trajectory = Trajectory.from_file(chosen.trajectory)
-    start = _examined(mechanism, chosen, chosen.config) if chosen.config else None
     with progress_shown():
         return follow(mechanism, trajectory, start=start, formulation=chosen.formulation)
 
@@ -90,16 +101,15 @@ def run_regions(chosen: argparse.Namespace) -> int:
     if chosen.output:
         drawable(Path(chosen.output))
     with _in_words(), progress_shown():
-        page, data, is_decided = _regions(mechanism, chosen)
-    if chosen.format == "json":
-        emit_data(data)
-    else:
-        emit_page(page)
+        page, data, notes, is_decided = _regions(mechanism, chosen)
+    _emit_noted(chosen, page, data, notes)
     return 0 if is_decided else UNDECIDED
 
 
-def _regions(mechanism: Mechanism, chosen: argparse.Namespace) -> tuple[Page, dict[str, Any], bool]:
-    """The page, the plain data, and whether all is decided."""
+def _regions(
+    mechanism: Mechanism, chosen: argparse.Namespace
+) -> tuple[Page, dict[str, Any], list[str], bool]:
+    """The page, the plain data, notes on both, and whether all is decided."""
     from singsym.output.motion import regions_page as pages
 
     name = mechanism.name
@@ -112,25 +122,23 @@ def _regions(mechanism: Mechanism, chosen: argparse.Namespace) -> tuple[Page, di
 
             plot_regions(every).save(chosen.output)
             say(f"written: {chosen.output}")
-        return pages.regions_page(name, every), pages.regions_data(name, every), every.verdict.is_yes
+        return pages.regions_page(name, every), pages.regions_data(name, every), [], every.verdict.is_yes
     one = _examined(mechanism, chosen, chosen.start)
-    notes = [f"{chosen.start}: {remark}" for remark in one.remarks]
     if not chosen.target:
         from singsym.motion.regions.free_box import free_box
 
         box = free_box(one)
+        notes = _notes((chosen.start, one))
         page, data, is_decided = pages.box_page(name, box), pages.box_data(name, box), True
     else:
         from singsym.motion.regions.joined import joined
 
         other = _examined(mechanism, chosen, chosen.target)
-        notes += [f"{chosen.target}: {remark}" for remark in other.remarks]
+        notes = _notes((chosen.start, one), (chosen.target, other))
         found = joined(one, other)
         page, data = pages.joined_page(name, found), pages.joined_data(name, found)
         is_decided = not found.verdict.is_undecided
-    if notes:
-        page, data = (*page, "\n".join(f"Note: {note}." for note in notes)), {**data, "notes": notes}
-    return page, data, is_decided
+    return page, data, notes, is_decided
 
 
 def _examined(mechanism: Mechanism, chosen: argparse.Namespace, file: str) -> Analysis:

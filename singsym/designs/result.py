@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import sympy
 
 from singsym.classes.result import Classification, ClassResult
-from singsym.classes.taxonomy.types import SingularityType
+from singsym.classes.taxonomy.types import SingularityType, feasible_classes
 from singsym.designs.borders import BorderPart, Borders
 from singsym.designs.plane import Plane
 from singsym.mechanism.model import Mechanism
@@ -100,9 +100,10 @@ class Design:
 
     def open_questions(self) -> Iterator[tuple[str, str]]:
         """What is not decided, each with the reason."""
+        numbers = {c.types: c.number for c in feasible_classes(3)}
         for types, reason in self.doubts:
-            what = f"({types}) is" if types else "there being configurations is"
-            yield f"whether {what} constant over the cells", reason
+            what = f"class {numbers[types]}" if types else "that there are configurations"
+            yield f"whether constant over the cells: {what}", reason
         for cell in (*self.cells, *self.values):
             if cell.classification is None:
                 yield f"the table where {cell.where}", cell.reason

@@ -64,6 +64,10 @@ class Enclosure:
         """Balls that hold all of it."""
         return self.along.hull
 
+    def value(self, number: int) -> arb:
+        """One of the given values, by its number: a ball that holds all of them."""
+        return self.values[number] + self.along.spans[number]
+
     def has_values(self, point: Enclosure) -> bool:
         """Whether the values of another enclosure are among those of this one."""
         with at_precision(BITS):

@@ -200,6 +200,18 @@ def test_what_cannot_be_drawn_is_refused_before_the_work(capsys, tmp_path, monke
     assert capsys.readouterr().err.count("expected a file name that ends in") == 2
 
 
+def test_freedoms_that_a_start_leaves_are_said(capsys, tmp_path, monkeypatch):
+    """The five-bar has two freedoms; A alone leaves one."""
+    monkeypatch.chdir(tmp_path)
+    Path("way.csv").write_text("t,A deg,E deg\n0,40,120\n1,45,115\n")
+    Path("part.toml").write_text('[joints]\nA = "40 deg"\n')
+    for options in ([], ["--format", "json"]):
+        assert main(["follow", "five-bar", "way.csv", "--config", "part.toml", *options]) in (0, 3)
+        said = capsys.readouterr().out
+        assert "part.toml: the given values leave 1 freedom" in said
+        assert not options or "notes" in json.loads(said)
+
+
 def test_cusps_and_self_motions(capsys, tmp_path):
     """Both solution sets of cusps; a redundant arm with its hand at rest has a curve of configurations."""
     found = data(capsys, "solve", "orthogonal-3r", "cusps", "--workers", "1")["solutions"]

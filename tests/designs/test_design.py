@@ -15,13 +15,16 @@ import pytest
 import sympy
 
 import singsym
+from singsym.classes.gathering import gathered
 from singsym.classes.running.runner import Runner
-from singsym.designs.borders import borders
+from singsym.classes.taxonomy.types import feasible_classes
+from singsym.designs.borders import Borders, borders
 from singsym.designs.families import Family, family
 from singsym.designs.plane import Plane
 from singsym.designs.real_borders import real_borders
+from singsym.designs.result import Design
 from singsym.designs.sampling import Sampled, at_samples
-from singsym.output.design.page import sample_text
+from singsym.output.design.page import proof_text, sample_text
 from singsym.polynomials import Ring
 
 OFFSET = """
@@ -80,6 +83,18 @@ def grashof(g: Fraction, a: Fraction, b: Fraction, c: Fraction) -> dict[int, int
         2: triangles(b + c, a) + triangles(abs(b - c), a),
     }
     return {number: points for number, points in found.items() if points}
+
+
+def test_open_classes_are_named_by_their_numbers():
+    """Many classes are open for one reason; their types, one after the other, fill pages."""
+    late = [(kind.types, "late") for kind in reversed(feasible_classes(3))]
+    named = {kind.types for kind in feasible_classes(3) if 4 <= kind.number <= 6}
+    some = tuple(pair for pair in late if pair[0] in named)
+    found = Design(singsym.load("fourbar"), ("a",), Borders((), some, "proven"), (), ())
+    assert gathered(found.open_questions()) == (("whether constant over the cells: class 4 to 6", "late"),)
+    assert "constant (proven)" in proof_text(found)
+    found = replace(found, borders=Borders((), tuple(late), "proven"))
+    assert proof_text(found).startswith("No class is proven to be constant")
 
 
 @pytest.mark.engines

@@ -85,12 +85,15 @@ class Flood:
 
     def enter(self, start: Floats) -> int | None:
         """The node over the cell that a configuration is over, if the way there meets no border."""
-        values = self.space.at(start)[0]
-        cell = tuple(int(np.argmin(np.abs(_around(a - x, t)))) for a, x, t in self._each(values))
+        cell = self.cell(self.space.at(start)[0])
         landed, there, crossed = self.moved(start[None], self.middle(cell)[None])
         if not there[0] or crossed.any():
             return None
         return self._entered(landed[0], cell)[0]
+
+    def cell(self, values: Floats) -> Cell:
+        """The cell that values of the inputs are in."""
+        return tuple(int(np.argmin(np.abs(_around(a - x, t)))) for a, x, t in self._each(values))
 
     def middle(self, cell: Cell) -> Floats:
         """The inputs' values in the middle of a cell."""
@@ -107,7 +110,7 @@ class Flood:
     def _entered(self, point: Floats, cell: Cell) -> tuple[int, bool]:
         """The node of a configuration over a cell, and whether it is new."""
         for number in self.over[cell]:
-            if float((np.abs(self.points[number] - point) / self.sizes).max()) < _SAME:
+            if self.are_same(self.points[number], point):
                 return number, False
         number = len(self.points)
         self.points.append(point)
@@ -115,6 +118,10 @@ class Flood:
         self.over[cell].append(number)
         self.free.add_node(number)
         return number, True
+
+    def are_same(self, one: Floats, other: Floats) -> bool:
+        """Whether two points seem to be one configuration."""
+        return float((np.abs(one - other) / self.sizes).max()) < _SAME
 
     def _shifted(self, cell: Cell, way: Cell) -> Cell | None:
         """The next cell; round the circle for an angle, None over the end of a length."""

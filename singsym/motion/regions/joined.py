@@ -102,7 +102,7 @@ def _walled(motions: FreeMotions, first: Place, last: Place) -> Wall | None:
 
 def _on_arcs(motions: FreeMotions, first: Place, last: Place) -> Verdict:
     """Whether both are on one arc of a configuration curve between its borders."""
-    found = Arcs(motions)
+    found = Arcs.of(motions)
     try:
         if found.number(first) != found.number(last):
             reason = "they are on different arcs of the configuration curve, between its borders"

@@ -22,7 +22,7 @@ def regions(mechanism: Mechanism, *, formulation: str = "auto", grid: int = GRID
     """The parts of the configuration space between singularities, limits and exclusions.
 
     For n = 1 they are exact arcs, all of them and proven; for n = 2 they are found on a grid, of cells along
-    each input, and those with other signs are proven to be apart.
+    each input, those with other signs are proven to be apart, and slices prove that they are all.
     Raises `MechanismError` for a larger mobility, where one condition holds everywhere, and where the inputs'
     values are not known.
 

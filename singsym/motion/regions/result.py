@@ -58,8 +58,8 @@ class Regions:
     """All regions that were found, large ones first.
 
     borders: the factors of (4) and (5), then, apart from these, limits and exclusions.
-    verdict: yes where these are proven to be all, each of one piece, and no two the same: for n = 1; else
-    undecided: a small one may be missed, and which are apart is as `apart` says.
+    verdict: yes where these are proven to be all, each of one piece, and no two the same; else undecided: a
+    small one may be missed, or two of them be one, and which are apart is as `apart` says.
     walls: for n = 2 further polynomials that keep their signs in regions with some signs, and of each region
     the certified sign, 0 where the wall says nothing of it.
     axes: for n = 2 the middles of the grid's cells along the inputs, in radians or lengths; assemblies: the

@@ -125,6 +125,8 @@ def proof_text(found: Design) -> str:
         " sample."
     )
     doubtful = dict.fromkeys(types for types, _ in found.doubts)
+    if all(kind.types in doubtful for kind in feasible_classes(3)):
+        return "No class is proven to be constant over the cells: a table holds at its sample."
     if len(doubtful) > _MOST_LISTED:
         said += f" Not of {len(doubtful)} classes, which are open below: {_AT_SAMPLES}"
     elif doubtful:

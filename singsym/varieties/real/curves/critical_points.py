@@ -176,19 +176,30 @@ def _combined(rows: Sequence[Row], count: int, rng: Random) -> tuple[Row, ...]:
     )
 
 
-def is_bounded(equations: Sequence[Polynomial]) -> bool:
+def is_bounded(equations: Sequence[Polynomial], nonnegative: Sequence[Polynomial] = ()) -> bool:
     """Whether the real zeros are proven bounded: the quadrics among the equations say so.
 
-    Lemma: where a sum of quadrics has a positive definite leading form, its zeros are bounded.
+    nonnegative: what is not negative where they are asked for; products of two linear ones are not either.
+    Lemma: where a sum of quadrics that are zero or less has a positive definite leading form, it is bounded.
+
+    >>> x, y = Ring(("x", "y")).gens
+    >>> is_bounded([x - y], [4 - x**2]), is_bounded([x**2 - 1], [y, 2 - y]), is_bounded([x**2 - 1], [y])
+    (False, True, False)
     """
-    ring = equations[0].ring
+    given = [*equations, *nonnegative]
+    if not given:
+        return False
+    ring = given[0].ring
     size = len(ring.names)
     total = [[Fraction(0)] * size for _ in range(size)]
-    for p in (*equations, *ring.relations):
+    linear = [p for p in nonnegative if p.total_degree == 1]
+    signed = [(p, 0) for p in (*equations, *ring.relations)]
+    signed += [(p, -1) for p in (*nonnegative, *(p * q for p, q in combinations(linear, 2)))]
+    for p, only in signed:
         if p.total_degree != 2:
             continue
         form = _leading_form(p, size)
-        sign = next((1 if form[i][i] > 0 else -1 for i in range(size) if form[i][i]), 0)
+        sign = only or next((1 if form[i][i] > 0 else -1 for i in range(size) if form[i][i]), 0)
         form = [[e * sign for e in row] for row in form]
         if sign and _semidefinite(form):
             total = [[a + b for a, b in zip(u, v, strict=True)] for u, v in zip(total, form, strict=True)]

@@ -13,6 +13,8 @@ import numpy as np
 from singsym.varieties.real.curves.arithmetic import Array, System
 
 _NEWTON = 4
+_PLACINGS = 4
+"""Steps to the place on a cubic beside a mark."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,13 +145,16 @@ def _arrival(marks: Marks, p: Array, q: Array, t: Array, t_new: Array) -> int:
     candidates = np.flatnonzero((s > 1e-9) & (s <= 1 + 1e-9))
     best, where = -1, 2.0
     for k in candidates:
-        x = s[k]
-        cubic = (
-            (1 + 2 * x) * (1 - x) ** 2 * p
-            + x * (1 - x) ** 2 * length * t
-            + x**2 * (3 - 2 * x) * q
-            + x**2 * (x - 1) * length * t_new
-        )
+        x, cubic = s[k], p
+        # the place on the cubic that is as far along the chord as the mark
+        for _ in range(_PLACINGS):
+            cubic = (
+                (1 + 2 * x) * (1 - x) ** 2 * p
+                + x * (1 - x) ** 2 * length * t
+                + x**2 * (3 - 2 * x) * q
+                + x**2 * (x - 1) * length * t_new
+            )
+            x += s[k] - (cubic - p) @ chord / length**2
         if np.linalg.norm(cubic - marks.points[k]) < 2e-3 * length and x < where:
             facing = [j for j in np.flatnonzero(marks.owner == k) if marks.directions[j] @ chord < 0]
             if facing:

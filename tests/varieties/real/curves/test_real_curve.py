@@ -229,3 +229,11 @@ def test_an_unlucky_draw_is_drawn_again(seed: int) -> None:
         curve = real_curve([(y - 1000) ** 2 - (x - 1000) ** 3])
     assert curve.verdict.is_yes
     assert (len(curve.components), len(curve.singular_points)) == (1, 1)
+
+
+@pytest.mark.parametrize("diameter", [1, 2, 3, 5, 6])
+def test_a_loop_is_gone_round_once(diameter: int) -> None:
+    """Where a mark lies on a wide step is seen, so that the polyline of a circle is as long as the circle."""
+    (loop,) = real_curve([x**2 + y**2 - Fraction(diameter**2, 4)]).components
+    angles = np.unwrap(np.arctan2(*loop.polyline.T[::-1]))
+    assert abs(angles[-1] - angles[0]) == pytest.approx(2 * np.pi)
