@@ -286,9 +286,8 @@ class _Prover:
 
         exact: the rank itself, not only whether it is full.
         """
-        columns = at.columns_of(name)
-        rows = [[remainder(row[j], at.equations) for j in columns] for row in at.matrix]
-        most = min(len(rows), len(columns))
+        rows = [[remainder(e, at.equations) for e in row] for row in at.part(at.matrix, name)]
+        most = min(len(rows), len(rows[0]) if rows else 0)
         for size in range(most, 0, -1):
             left: list[list[fmpq_mpoly]] = []
             for own, chosen, block in _blocks(rows, size):
