@@ -368,12 +368,13 @@ def _questions(at: RealSet, about: Statement) -> Iterator[tuple[str, bool]]:
 def _blocks(
     rows: Sequence[Sequence[fmpq_mpoly]], size: int
 ) -> Iterator[tuple[list[int], list[int], list[list[fmpq_mpoly]]]]:
-    """The square blocks of a size, with their rows and columns; raises `_TooManyMinors`."""
-    width = len(rows[0]) if rows else 0
-    if comb(len(rows), size) * comb(width, size) > MOST_MINORS:
+    """The square blocks of a size without rows or columns of zeros; raises `_TooManyMinors`."""
+    height = [i for i, row in enumerate(rows) if any(row)]
+    width = [j for j, column in enumerate(zip(*rows, strict=True)) if any(column)]
+    if comb(len(height), size) * comb(len(width), size) > MOST_MINORS:
         raise _TooManyMinors(f"a matrix has more than {MOST_MINORS} minors of size {size}")
-    for own in combinations(range(len(rows)), size):
-        for columns in combinations(range(width), size):
+    for own in combinations(height, size):
+        for columns in combinations(width, size):
             yield list(own), list(columns), [[rows[i][j] for j in columns] for i in own]
 
 
@@ -381,7 +382,8 @@ def _passive_factors(at: RealSet) -> list[fmpq_mpoly]:
     """Factors of passive entries that are not known to vanish nowhere on a set, short ones first."""
     passive = [j for j, role in enumerate(at.roles) if role == "passive"]
     entries = [remainder(row[j], at.equations) for row in at.matrix for j in passive]
-    found = {factor for entry in entries for factor in factors(entry, units_of(at))}
+    units = units_of(at)
+    found = (factor for entry in entries for factor in factors(entry, units))
     return sorted(found, key=lambda f: (len(f), f.total_degree(), str(f)))
 
 

@@ -6,7 +6,8 @@ Source: unique factorisation; modulo the equations of a set by remainders.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import product
+from functools import cache
+from itertools import chain, product
 from typing import Any
 
 from flint import fmpq, fmpq_mpoly
@@ -69,19 +70,28 @@ def _form(scale: fmpq, places: list[int]) -> dict[str, Any]:
 def cancelled(f: fmpq_mpoly, at: RealSet) -> dict[str, Any] | None:
     """`units` and `power` as of the rule `cancel`, where some show that a polynomial vanishes on the set.
 
-    Its powers alone, then times powers of one unit, then of all of them.
+    Its powers alone, then times powers of one unit, or of all of them: low powers first.
     """
-    one, places = at.context.constant(1), range(len(at.units))
-    ways = [[place] for place in places] + ([[*places]] if len(places) > 1 else [])
+    places = range(len(at.units))
+    ways = [(place,) for place in places] + ([(*places,)] if len(places) > 1 else [])
     powers = range(1, 2 if f.is_constant() else HIGHEST_POWER + 1)
-    for way, count in [([], 1), *product(ways, range(1, HIGHEST_POWER + 1))]:
-        found = one
-        for factor in (at.units[place] for place in way * count):
-            found = _times(found, factor, at)
-        for power in powers:
-            found = _times(found, f, at)
-            if not found:
-                return {"units": way * count, "power": power}
+
+    @cache
+    def tried(way: tuple[int, ...], count: int, power: int) -> fmpq_mpoly:
+        """So many of the units times a power, multiplied as the checker does it."""
+        if power:
+            return _times(tried(way, count, power - 1), f, at)
+        found = tried(way, count - 1, 0) if count else at.context.constant(1)
+        for place in way if count else ():
+            found = _times(found, at.units[place], at)
+        return found
+
+    more = product(range(1, HIGHEST_POWER + 1), powers, ways)
+    for count, power, way in chain(
+        ((0, power, ()) for power in powers), sorted(more, key=lambda one: (sum(one[:2]), one[1]))
+    ):
+        if count + power <= HIGHEST_POWER + 1 and not tried(way, count, power):
+            return {"units": [*way] * count, "power": power}
     return None
 
 
