@@ -7,7 +7,7 @@ real roots are isolated by FLINT's `arb_fmpz_poly_complex_roots`, which leaves t
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from functools import cache, partial, reduce
+from functools import partial, reduce
 from typing import Any
 
 from flint import arb, arb_poly, ctx, fmpq_mpoly, fmpq_poly, fmpz, nmod_poly
@@ -100,15 +100,14 @@ class Chart:
         Even powers are positive, as m' vanishes at no root.
         """
         even = degree(f) if even is None else even
-
-        @cache
-        def monomial(places: tuple[int, ...]) -> fmpq_poly:
-            return monomial(places[:-1]) * self.images[places[-1]] if places else fmpq_poly([1])
-
-        total = fmpq_poly([])
+        total, known = fmpq_poly([]), dict[tuple[int, ...], fmpq_poly]({(): fmpq_poly([1])})
         for exponents, coefficient in f.terms():
-            powers = (*map(int, exponents), even - int(sum(exponents)))
-            total = total + monomial(repeated(powers)) * coefficient
+            places = repeated((*exponents, even - sum(exponents)))
+            for k, i in enumerate(places):
+                # quotients have longer numbers than products: only the sum is reduced
+                if places[: k + 1] not in known:
+                    known[places[: k + 1]] = known[places[:k]] * self.images[i]
+            total = total + known[places] * coefficient
         return total % modulus
 
     def vanishes(self, factor: fmpq_poly, f: fmpq_mpoly) -> bool:

@@ -6,9 +6,10 @@ Source: Newton's method from numerical points, which prove nothing; the checker'
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from decimal import Decimal
 from fractions import Fraction
-from itertools import islice, product
+from itertools import islice
 from typing import Any
 
 from flint import arb, arb_mat, ctx, fmpq, fmpq_mpoly
@@ -45,19 +46,15 @@ def point_leaf(at: RealSet, near: Sequence[Sequence[float]]) -> tuple[dict[str, 
         ways = [independent(at, start, order) for order in orders]
         # where all generators are taken nothing has to follow from them
         ways.sort(key=lambda way: bool(_others(at, way[0])))
-        for (rows, columns), grid in product(ways, GRIDS):
-            data = _boxed(at, start, rows, columns, grid)
-            if data is None:
-                continue
-            if _others(at, rows):
-                implied = implied_by(at, rows, start)
-                if implied is None:
-                    break
-                data["implied"] = implied
-            try:
-                return data, dimension_below(at, data)
-            except Rejected:
-                continue
+        for rows, columns in ways:
+            boxed = [data for grid in GRIDS if (data := _boxed(at, start, rows, columns, grid)) is not None]
+            implied = implied_by(at, rows, start) if boxed and _others(at, rows) else {}
+            if implied is None:
+                break
+            for data in boxed:
+                shown = data | ({"implied": implied} if implied else {})
+                with suppress(Rejected):
+                    return shown, dimension_below(at, shown)
     return None
 
 
