@@ -11,12 +11,12 @@ from random import Random
 from typing import Any
 
 import pytest
-from flint import ctx, fmpq_poly
+from flint import ctx, nmod_poly
 
 import singsym
 from singsym.certificates.checker import verification
 from singsym.certificates.checker.curves import Tubes, components
-from singsym.certificates.checker.points import points, rank_over
+from singsym.certificates.checker.points import PRIME, pivots, points
 from singsym.certificates.checker.polynomials import Rejected, polynomial, ring
 from singsym.certificates.checker.ranks import bounds_on, possible_types
 from singsym.certificates.checker.rules import cancel, derive, pivot, squares
@@ -195,21 +195,35 @@ def test_ranks_at_a_point_are_those_of_the_field() -> None:
 def test_ranks_by_elimination_without_fractions(seed: int) -> None:
     """Rows that are combinations of r independent ones: [1, 0, *], [0, 1, *], ... have the rank r."""
     random = Random(seed)
-    factor, rank = fmpq_poly([-2, 0, 0, 1]), seed % 4
+    factor, rank = nmod_poly([-2, 0, 0, 1], PRIME), seed % 4
 
-    def number() -> fmpq_poly:
-        return fmpq_poly([random.randint(-3, 3) for _ in range(3)])
+    def number() -> nmod_poly:
+        return nmod_poly([random.randint(-3, 3) for _ in range(3)], PRIME)
 
-    basis = [[fmpq_poly([int(i == j)]) if j < rank else number() for j in range(4)] for i in range(rank)]
-    weights = [[number() if i >= rank else fmpq_poly([int(i == k)]) for k in range(rank)] for i in range(4)]
+    def unit(i: int, j: int) -> nmod_poly:
+        return nmod_poly([int(i == j)], PRIME)
+
+    basis = [[unit(i, j) if j < rank else number() for j in range(4)] for i in range(rank)]
+    weights = [[number() if i >= rank else unit(i, k) for k in range(rank)] for i in range(4)]
+    nothing = nmod_poly([], PRIME)
     rows = [
-        [sum((w * row[j] for w, row in zip(own, basis, strict=True)), start=fmpq_poly([])) for j in range(4)]
+        [sum((w * row[j] for w, row in zip(own, basis, strict=True)), start=nothing) for j in range(4)]
         for own in weights
     ]
     # the same in the field, but not in Q[u]
     rows = [[entry + factor * number() for entry in row] for row in rows]
     random.shuffle(rows)
-    assert rank_over(rows, factor) == rank
+    own, columns = pivots(rows, factor)
+    assert len(own) == len(columns) == rank
+    assert len({*own}) == len({*columns}) == rank
+
+
+def test_a_multiple_of_the_prime_counts_for_nothing() -> None:
+    """On x^2 = 2 the entry of L_O is the prime, which is not zero though it is modulo the prime: refused."""
+    there = about(["x^2 - 2", "y"], [["1", str(PRIME)]], ["output", "input"])
+    line = {"form": "x", "minimal": ["-2", "0", "1"], "coordinates": {"x": ["4"], "y": []}}
+    with pytest.raises(Rejected, match="modulo a prime"):
+        points(there.whole, there, line)
 
 
 def test_a_box_without_a_point() -> None:

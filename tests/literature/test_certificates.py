@@ -68,9 +68,11 @@ QUICK = (
     "wrist-offset",
 )
 """Those whose certificate takes a few seconds at most."""
+SLOW = ("klann-leg", "linear-delta")
+"""These take tens of seconds."""
 
 
-@pytest.mark.parametrize("name", QUICK)
+@pytest.mark.parametrize("name", [*QUICK, *(pytest.param(name, marks=pytest.mark.slow) for name in SLOW)])
 def test_the_table_is_proven_in_full(
     name: str, classified: Callable[[Mechanism], Classification], tmp_path: Path
 ) -> None:

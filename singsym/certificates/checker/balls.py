@@ -10,17 +10,14 @@ from typing import Any
 
 from flint import arb, arb_mat, fmpq_mpoly
 
-from singsym.certificates.checker.polynomials import Rejected
+from singsym.certificates.checker.polynomials import Rejected, repeated
 
 
 class Compiled:
     """A polynomial to be evaluated at balls, again and again."""
 
     def __init__(self, f: fmpq_mpoly) -> None:
-        self.terms = [
-            (arb(c), [i for i, e in enumerate(exponents) for _ in range(int(e))])
-            for exponents, c in f.terms()
-        ]
+        self.terms = [(arb(c), repeated(exponents)) for exponents, c in f.terms()]
 
     def at(self, values: Sequence[Any]) -> Any:
         """The value at a point, of balls or of polynomials over these.

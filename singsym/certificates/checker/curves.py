@@ -230,14 +230,14 @@ def _critical_points(at: RealSet, own: Sequence[fmpq_mpoly], local: fmpq_mpoly, 
     others = [i for i, name in enumerate(at.variables) if name != data["variable"]]
     rows = [[remainder(e.derivative(i), at.equations) for i in others] for e in own]
     product = at.context.constant(rational(data.get("scale", "1")))
-    factors = listed(data, "factors", dict)
-    parts = [polynomial(entry.get("polynomial", ""), at.context) for entry in factors]
-    for part, entry in zip(parts, factors, strict=True):
+    found: Boxes = []
+    for entry in listed(data, "factors", dict):
+        part = polynomial(entry.get("polynomial", ""), at.context)
         product = product * part ** power(entry, "multiplicity")
+        found += real_points(at.within([part]), entry)
     if not product or remainder(determinant(rows, at.equations) * local - product, at.equations):
         raise Rejected("critical: the determinant is not seen to be this product")
-    pairs = zip(parts, factors, strict=True)
-    return [box for part, entry in pairs for box in real_points(at.within([part]), entry)]
+    return found
 
 
 def real_points(at: RealSet, line: Line) -> Boxes:

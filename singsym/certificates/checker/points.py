@@ -7,16 +7,17 @@ real roots are isolated by FLINT's `arb_fmpz_poly_complex_roots`, which leaves t
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from functools import partial
+from functools import partial, reduce
 from typing import Any
 
-from flint import arb, arb_poly, ctx, fmpq_mpoly, fmpq_poly
+from flint import arb, arb_poly, ctx, fmpq_mpoly, fmpq_poly, fmpz, nmod_poly
 
-from singsym.certificates.checker.polynomials import Rejected, polynomial, rational, remainder
-from singsym.certificates.checker.ranks import Defects, is_possible, types_of
+from singsym.certificates.checker.polynomials import Rejected, polynomial, rational, remainder, repeated
+from singsym.certificates.checker.ranks import Defects, borders, is_possible, types_of
 from singsym.certificates.checker.sets import MATRICES, RealSet, Statement, listed, named, power
 
-MOST_BITS = 4096
+BITS = tuple(2**k for k in range(6, 13))
+PRIME = 2**61 - 1
 
 Found = tuple[str, int, Callable[[fmpq_mpoly], bool]]
 """The types of points, their number, and whether a polynomial vanishes at them, conjugate as they are."""
@@ -83,8 +84,7 @@ def _check_all(chart: Chart, form: fmpq_mpoly, exponent: int) -> None:
 
 def degree(*polynomials: fmpq_mpoly) -> int:
     """The least even number that is not below the degree of any of these."""
-    degrees = [int(sum(exponents)) for f in polynomials for exponents in f.monoms()]
-    return -(-max(degrees, default=0) // 2) * 2
+    return -(-max(int(f.total_degree()) for f in polynomials) // 2) * 2
 
 
 class Chart:
@@ -95,23 +95,19 @@ class Chart:
         self.images = [*(coordinates[name] for name in at.context.names()), minimal.derivative()]
 
     def value(self, f: fmpq_mpoly, modulus: fmpq_poly, even: int | None = None) -> fmpq_poly:
-        """f at its points, modulo a polynomial in u, times a power of m' that is not below its degree.
+        """f at its points, modulo a polynomial in u, times an even power of m', not below its degree.
 
-        even: which one.  Even powers are positive, as m' vanishes at no root.
+        Even powers are positive, as m' vanishes at no root.
         """
         even = degree(f) if even is None else even
-        total = fmpq_poly([])
-        powers: dict[tuple[int, int], fmpq_poly] = {}
+        total, known = fmpq_poly([]), dict[tuple[int, ...], fmpq_poly]({(): fmpq_poly([1])})
         for exponents, coefficient in f.terms():
-            term = fmpq_poly([coefficient])
-            for i, e in enumerate((*map(int, exponents), even - int(sum(exponents)))):
-                for k in range(1, e + 1):
-                    if (i, k) not in powers:
-                        before = powers[i, k - 1] if k > 1 else fmpq_poly([1])
-                        powers[i, k] = (before * self.images[i]) % modulus
-                if e:
-                    term = term * powers[i, e]
-            total = total + term
+            places = repeated((*exponents, even - sum(exponents)))
+            for k, i in enumerate(places):
+                # quotients have longer numbers than products: only the sum is reduced
+                if places[: k + 1] not in known:
+                    known[places[: k + 1]] = known[places[:k]] * self.images[i]
+            total = total + known[places] * coefficient
         return total % modulus
 
     def vanishes(self, factor: fmpq_poly, f: fmpq_mpoly) -> bool:
@@ -125,15 +121,13 @@ class Chart:
         if not all(strict):
             return 0
         signs = [value for value in (*strict, *weak) if value]
-        bits = 64
-        while bits <= MOST_BITS:
+        for bits in BITS:
             with ctx.workprec(bits):
                 roots = real_roots(factor)
                 decided = [[arb_poly(value)(root).sgn() for value in signs] for root in roots]
             if all(sign.is_exact() for own in decided for sign in own):
                 return sum(all(sign > 0 for sign in own) for own in decided)
-            bits *= 2
-        raise Rejected(f"a sign at a point is not seen with {MOST_BITS} bits")
+        raise Rejected(f"a sign at a point is not seen with {BITS[-1]} bits")
 
     def balls(self, there: fmpq_poly) -> list[list[arb]]:
         """Balls around the points of the real roots of a polynomial without double roots."""
@@ -151,29 +145,36 @@ def _defects(chart: Chart, about: Statement, factor: fmpq_poly) -> Defects:
     """The defects at the roots of an irreducible polynomial, one of them real, which are all alike."""
     at = chart.at
     values = [[chart.value(entry, factor, degree(*row)) for entry in row] for row in at.matrix]
-    ranks: dict[str, int] = {}
-    for name in reversed(MATRICES):
-        columns = at.columns_of(name)
-        # L has all columns, and is looked at last
-        full = name == "L" and len(values) in ranks.values()
-        ranks[name] = (
-            len(values) if full else rank_over([[row[j] for j in columns] for row in values], factor)
-        )
-    delta, p, inputs, outputs = found = [about.full_rank(m) - at.eliminated - ranks[m] for m in MATRICES]
+    whole = reduce(fmpz.lcm, (e.denom() for row in values for e in row), fmpz(1))
+    residues = [[nmod_poly((e * whole).numer(), PRIME) for e in row] for row in values]
+    found = []
+    for name in MATRICES:
+        rows, columns = pivots(at.part(residues, name), nmod_poly(factor.numer(), PRIME))
+        if not all(chart.vanishes(factor, f) for f in borders(at, at.part(at.matrix, name), rows, columns)):
+            raise Rejected("a rank at a point is not seen modulo a prime")
+        found.append(about.full_rank(name) - at.eliminated - len(rows))
+    delta, p, inputs, outputs = found
     if min(found) < 0 or not is_possible((delta, p, inputs, outputs), about.n):
         raise Rejected(f"defects {found} at a point: N and n are not those of L")
     return delta, p, inputs, outputs
 
 
-def rank_over(rows: Sequence[Sequence[fmpq_poly]], factor: fmpq_poly) -> int:
-    """The rank over the field Q[u]/(factor), by elimination in Q[u] that leaves minors (Bareiss)."""
-    left, rank, before = rows, 0, fmpq_poly([1])
-    while place := next(
-        ((i, j) for i, row in enumerate(left) for j, e in enumerate(row) if e % factor), None
-    ):
-        k, j = place
-        pivot, others = left[k], [row for i, row in enumerate(left) if i != k]
-        columns = [c for c in range(len(pivot)) if c != j]
-        left = [[(pivot[j] * row[c] - row[j] * pivot[c]) // before for c in columns] for row in others]
-        before, rank = pivot[j], rank + 1
-    return rank
+def pivots(rows: Sequence[Sequence[nmod_poly]], factor: nmod_poly) -> tuple[list[int], list[int]]:
+    """Rows and columns of a minor that is not zero modulo a factor, by elimination that leaves minors
+    (Bareiss).
+
+    All modulo a prime: of whole polynomials such a minor is no multiple of the primitive factor, which would
+    have a whole cofactor (Gauss).
+    """
+    left = {i: dict(enumerate(row)) for i, row in enumerate(rows)}
+    chosen, before = list[tuple[int, int]](), nmod_poly([1], PRIME)
+    while place := next(((i, j) for i, row in left.items() for j, e in row.items() if e % factor), None):
+        i, j = place
+        pivot = left.pop(i)
+        left = {
+            k: {c: (pivot[j] * e - row[j] * pivot[c]) // before for c, e in row.items() if c != j}
+            for k, row in left.items()
+        }
+        before = pivot[j]
+        chosen.append(place)
+    return [i for i, _ in chosen], [j for _, j in chosen]

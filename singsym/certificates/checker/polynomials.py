@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from functools import cache
+from functools import cache, reduce
 from itertools import cycle
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz
@@ -38,11 +38,9 @@ def rational(text: str) -> fmpq:
     >>> rational("-3/2")
     -3/2
     """
-    body = text.removeprefix("-") if isinstance(text, str) else ""
-    if not _NUMBER.match(body):
+    if not isinstance(text, str) or not _NUMBER.match(text.removeprefix("-")):
         raise Rejected(f"expected a rational as -3/2, got {text!r}")
-    value = fmpq(*(fmpz(part or 1) for part in body.partition("/")[::2]))
-    return -value if text.startswith("-") else value
+    return fmpq(*map(fmpz, text.split("/")))
 
 
 def polynomial(text: str, context: fmpq_mpoly_ctx) -> fmpq_mpoly:
@@ -56,11 +54,8 @@ def polynomial(text: str, context: fmpq_mpoly_ctx) -> fmpq_mpoly:
     places = {name: i for i, name in enumerate(context.names())}
     terms: dict[tuple[int, ...], fmpq] = {}
     for term in text.replace(" - ", " + -").split(" + "):
-        coefficient, exponents = fmpq(1), [0] * len(places)
-        body = term
-        if term.startswith("-"):
-            coefficient, body = fmpq(-1), term[1:]
-        for part in body.split("*"):
+        coefficient, exponents = fmpq(-1 if term.startswith("-") else 1), [0] * len(places)
+        for part in term.removeprefix("-").split("*"):
             if _NUMBER.match(part):
                 coefficient *= rational(part)
             elif (power := _POWER.match(part)) and power[1] in places:
@@ -72,16 +67,18 @@ def polynomial(text: str, context: fmpq_mpoly_ctx) -> fmpq_mpoly:
     return context.from_dict(terms)
 
 
+def repeated(exponents: Iterable[int]) -> tuple[int, ...]:
+    """The places of the factors of a monomial, each as often as its exponent says."""
+    return tuple(i for i, e in enumerate(exponents) for _ in range(int(e)))
+
+
 def primitive(f: fmpq_mpoly) -> fmpq_mpoly:
     """The multiple with coprime integer coefficients and a positive leading one."""
-    numerator, denominator = fmpz(0), fmpz(1)
-    coefficients = f.coeffs()
-    for c in coefficients:
-        numerator, denominator = numerator.gcd(c.p), denominator.lcm(c.q)
-    if not coefficients:
+    if not f:
         return f
-    scale = fmpq(denominator, numerator)
-    return f * (scale if coefficients[0] > 0 else -scale)
+    coefficients = f.coeffs()
+    scale = fmpq(reduce(fmpz.lcm, (c.q for c in coefficients)), reduce(fmpz.gcd, (c.p for c in coefficients)))
+    return f * (scale if (coefficients[0] > 0) == (scale > 0) else -scale)
 
 
 def remainder(f: fmpq_mpoly, divisors: Iterable[fmpq_mpoly]) -> fmpq_mpoly:

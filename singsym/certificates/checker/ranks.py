@@ -59,9 +59,8 @@ def bounds_on(at: RealSet, about: Statement, evidence: Mapping[str, Any]) -> Bou
         raise Rejected(f"ranks: expected some of {', '.join(MATRICES)}, got {list(evidence)}")
     found: Bounds = {}
     for name in MATRICES:
-        columns = at.columns_of(name)
-        rows = [[row[j] for j in columns] for row in at.matrix]
-        low, high = 0, min(len(rows), len(columns))
+        rows = at.part(at.matrix, name)
+        low, high = 0, min(len(rows), len(rows[0]) if rows else 0)
         for item in listed(evidence, name, dict, []):
             least, most = _rank(at, rows, item, low, high)
             low, high = max(low, least), min(high, most)
@@ -93,11 +92,16 @@ def _rank(at: RealSet, rows: Rows, item: Mapping[str, Any], low: int, high: int)
         raise Rejected("a minor is not seen to be the product of units")
     if item.get("exact") is not True:
         return size, high
-    for i in set(range(len(rows))) - set(own_rows):
-        for j in set(range(len(rows[0]))) - set(own_columns):
-            if _minor(at, rows, [*own_rows, i], [*own_columns, j]):
-                raise Rejected("a bordering minor is not seen to vanish")
+    if any(borders(at, rows, own_rows, own_columns)):
+        raise Rejected("a bordering minor is not seen to vanish")
     return size, size
+
+
+def borders(at: RealSet, rows: Rows, own: Sequence[int], columns: Sequence[int]) -> Iterator[fmpq_mpoly]:
+    """The minors, modulo the equations, that have one row and one column more than some."""
+    for i in set(range(len(rows))) - set(own):
+        for j in set(range(len(rows[0]))) - set(columns):
+            yield _minor(at, rows, [*own, i], [*columns, j])
 
 
 def _minor(at: RealSet, rows: Rows, own: Sequence[int], columns: Sequence[int]) -> fmpq_mpoly:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import compress
 from typing import Any
 
 from flint import fmpq_mpoly, fmpq_mpoly_ctx
@@ -54,9 +55,10 @@ class RealSet:
         """The part where more polynomials vanish."""
         return replace(self, equations=(*self.equations, *more), generators=(*self.generators, *more))
 
-    def columns_of(self, name: str) -> list[int]:
-        """The columns of L that one of the four matrices has."""
-        return [j for j, role in enumerate(self.roles) if role not in _WITHOUT[name]]
+    def part(self, matrix: Sequence[Sequence[Any]], name: str) -> list[list[Any]]:
+        """The columns of L, or of its values, that one of the four matrices has."""
+        kept = [role not in _WITHOUT[name] for role in self.roles]
+        return [[*compress(row, kept)] for row in matrix]
 
 
 @dataclass(frozen=True)

@@ -6,9 +6,10 @@ Source: Newton's method from numerical points, which prove nothing; the checker'
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from decimal import Decimal
 from fractions import Fraction
-from itertools import islice, product
+from itertools import islice
 from typing import Any
 
 from flint import arb, arb_mat, ctx, fmpq, fmpq_mpoly
@@ -18,7 +19,6 @@ from singsym.certificates.checker.sets import RealSet
 from singsym.certificates.checker.strata import BITS, INVERSE, dimension_below
 from singsym.certificates.prover.traced_basis import traced_basis
 from singsym.effort.attempts import attempt
-from singsym.effort.budget import Undecided
 from singsym.elimination.ideal import Ideal
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.real.numerical.sampling import numerical_points
@@ -45,19 +45,15 @@ def point_leaf(at: RealSet, near: Sequence[Sequence[float]]) -> tuple[dict[str, 
         ways = [independent(at, start, order) for order in orders]
         # where all generators are taken nothing has to follow from them
         ways.sort(key=lambda way: bool(_others(at, way[0])))
-        for (rows, columns), grid in product(ways, GRIDS):
-            data = _boxed(at, start, rows, columns, grid)
-            if data is None:
-                continue
-            if _others(at, rows):
-                implied = implied_by(at, rows, start)
-                if implied is None:
-                    break
-                data["implied"] = implied
-            try:
-                return data, dimension_below(at, data)
-            except Rejected:
-                continue
+        for rows, columns in ways:
+            boxed = [data for grid in GRIDS if (data := _boxed(at, start, rows, columns, grid)) is not None]
+            implied = implied_by(at, rows, start) if boxed and _others(at, rows) else {}
+            if implied is None:
+                break
+            for data in boxed:
+                shown = data | ({"implied": implied} if implied else {})
+                with suppress(Rejected):
+                    return shown, dimension_below(at, shown)
     return None
 
 
@@ -184,17 +180,20 @@ def implied_by(at: RealSet, rows: Sequence[int], near: Sequence[complex]) -> dic
 
     near: a point at which that polynomial does not vanish.
     """
-    larger = ring([INVERSE, *at.variables])
+    larger, own = ring([INVERSE, *at.variables]), Ring((INVERSE, *at.variables))
     gen = larger.gens()[0]
     square = [at.equations[k].project_to_context(larger) for k in rows]
     others = [g.project_to_context(larger) for g in _others(at, rows)]
     for local in islice((f for f in _locals(at, rows) if is_off(f, near)), MOST_LOCALS):
         start = [*square, 1 - gen * local.project_to_context(larger)]
-        failures: list[Undecided] = []
-        with attempt("that equations follow from others", FOLLOWS, failures=failures) as budget:
-            found = traced_basis(start, budget)
-        if not failures and not any(remainder(g, found.basis) for g in others):
-            return {"local": str(local), "steps": found.steps, "equations": found.equations}
+        ideal = Ideal(own, [Polynomial(own, f) for f in start])
+        with attempt("that equations follow from others", FOLLOWS) as budget:
+            # an engine is asked first, as steps take much longer to find
+            if all(ideal.contains(Polynomial(own, g)).value for g in others):
+                target = [tuple(map(int, m)) for m in ideal.leading_monomials().value]
+                found = traced_basis(start, budget, target)
+                if not any(remainder(g, found.basis) for g in others):
+                    return {"local": str(local), "steps": found.steps, "equations": found.equations}
     return None
 
 

@@ -37,7 +37,7 @@ FINITE = 20.0
 MOST_TUBES = 4000
 CORRECTIONS, EXACT = 8, 1e-9
 """Newton's method ends after so many steps, or with one so short that the next would be of rounding only."""
-MOST_SYSTEMS, MOST_POINTS = 4, 12
+MOST_SYSTEMS, MOST_POINTS = 6, 12
 """So many square systems are tried for one curve, each looked at in so many points."""
 BETTER = 1.2
 """An equation is exchanged for one with which gradients are so much more independent."""
@@ -62,7 +62,7 @@ def curve_leaf(at: RealSet, point: Mapping[str, Any], based: Based) -> dict[str,
     data = dict(point) or _some_square(at)
     if not data and len(at.generators) != len(at.variables) - 1:
         return None
-    seen: list[list[float]] = []
+    seen, tried = list[list[float]](), list[set[int]]()
     for _ in range(MOST_SYSTEMS):
         own, local = square_system(at, data)
         critical, points = (
@@ -85,18 +85,22 @@ def curve_leaf(at: RealSet, point: Mapping[str, Any], based: Based) -> dict[str,
             return {"bounded": bounded, "critical": critical, "loops": _loops(tracker, points), **more}
         # another square system, that is regular there
         seen = [bad, *seen, *starts[:MOST_POINTS]]
-        rows = _regular_rows(at, seen)
-        implied = None if rows is None else implied_by(at, rows, bad)
+        implied = None
+        while implied is None and len(tried) < MOST_SYSTEMS and (rows := _regular_rows(at, seen, tried)):
+            tried.append({*rows})
+            implied = implied_by(at, rows, bad)
         if implied is None:
             return None
         data |= {"square": rows, "implied": implied}
     return None
 
 
-def _regular_rows(at: RealSet, points: Sequence[Sequence[float]]) -> list[int] | None:
+def _regular_rows(
+    at: RealSet, points: Sequence[Sequence[float]], tried: Sequence[set[int]]
+) -> list[int] | None:
     """Places of equations, one less than variables, with gradients as independent at points as can be.
 
-    None where those of all equations are dependent at the first point.
+    tried: other ones are wanted.  None where the gradients of all are dependent at the first point.
     """
     rows = independent(at, points[0], by_length(at.equations))[0]
     if len(rows) < len(at.variables) - 1:
@@ -110,14 +114,14 @@ def _regular_rows(at: RealSet, points: Sequence[Sequence[float]]) -> list[int] |
     def least(own: list[int]) -> float:
         return float(numpy.linalg.svd(matrices[:, own, :], compute_uv=False)[:, -1].min())
 
-    best = least(rows)
+    best = 0.0 if {*rows} in tried else least(rows)
     while True:
         current().check("a square system of a curve")
         others = [k for k in range(len(at.equations)) if k not in rows]
         exchanged = [[*rows[:i], k, *rows[i + 1 :]] for i in range(len(rows)) for k in others]
-        found = max(exchanged, key=least, default=rows)
-        if least(found) <= BETTER * best:
-            return rows
+        found = max((own for own in exchanged if {*own} not in tried), key=least, default=rows)
+        if least(found) <= BETTER * best or found == rows:
+            return None if {*rows} in tried else rows
         rows, best = found, least(found)
 
 

@@ -27,7 +27,14 @@ from singsym.certificates.prover.finite import points_leaf
 from singsym.certificates.prover.loops import all_zeros, curve_leaf
 from singsym.certificates.prover.traced_basis import traced_basis
 from singsym.certificates.prover.tree import Node, Tree
-from singsym.certificates.prover.unit_products import cancelled, open_factors, product_of_units, unit_form
+from singsym.certificates.prover.unit_products import (
+    cancelled,
+    factors,
+    open_factors,
+    product_of_units,
+    unit_form,
+    units_of,
+)
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Undecided, current
 from singsym.elimination.ideal import Ideal, intersection
@@ -107,7 +114,7 @@ class _Prover:
         """A set split on loci in turn."""
         for k, locus in enumerate(loci):
             by = remainder(locus, node.at.equations)
-            if not by or product_of_units(by, node.at) is not None:
+            if not by or product_of_units(by, node.at, units_of(node.at)) is not None:
                 continue
             split = self._split(node, by, loci[k + 1 :])
             if split is None:
@@ -187,11 +194,13 @@ class _Prover:
             try:
                 found = self._rank(at, name, exact)
             except _TooManyMinors:
-                # a smaller matrix has fewer, by pivots among the units
-                if (less := self.reduced(node)) is node:
+                # a smaller matrix has fewer, by pivots among the units, or off the zeros of an entry
+                if (less := self.reduced(node)) is not node:
+                    self._ranked_on_basis(less)
+                    return
+                if not (entries := _passive_factors(at)):
                     raise
-                self._ranked_on_basis(less)
-                return
+                found = entries[0]
             if isinstance(found, dict):
                 evidence.setdefault(name, []).append(found)
             else:
@@ -286,17 +295,16 @@ class _Prover:
 
         exact: the rank itself, not only whether it is full.
         """
-        columns = at.columns_of(name)
-        rows = [[remainder(row[j], at.equations) for j in columns] for row in at.matrix]
-        most = min(len(rows), len(columns))
+        rows = [[remainder(e, at.equations) for e in row] for row in at.part(at.matrix, name)]
+        most, units = min(len(rows), len(rows[0]) if rows else 0), units_of(at)
         for size in range(most, 0, -1):
             left: list[list[fmpq_mpoly]] = []
             for own, chosen, block in _blocks(rows, size):
-                form = unit_form(block, at, self.hints.products)
+                form = unit_form(block, at, self.hints.products, units)
                 if form is not None:
                     full = {} if size == most else {"exact": True}
                     return {"rows": own, "columns": chosen, **form, **full}
-                if factors := open_factors(block, at, self.hints.products):
+                if factors := open_factors(block, at, self.hints.products, units):
                     left.append(factors)
             if left:
                 return min(left, key=lambda own: (len(own), len(own[0])))[0]
@@ -360,18 +368,29 @@ def _questions(at: RealSet, about: Statement) -> Iterator[tuple[str, bool]]:
 def _blocks(
     rows: Sequence[Sequence[fmpq_mpoly]], size: int
 ) -> Iterator[tuple[list[int], list[int], list[list[fmpq_mpoly]]]]:
-    """The square blocks of a size, with their rows and columns; raises `_TooManyMinors`."""
-    width = len(rows[0]) if rows else 0
-    if comb(len(rows), size) * comb(width, size) > MOST_MINORS:
+    """The square blocks of a size without rows or columns of zeros; raises `_TooManyMinors`."""
+    height = [i for i, row in enumerate(rows) if any(row)]
+    width = [j for j, column in enumerate(zip(*rows, strict=True)) if any(column)]
+    if comb(len(height), size) * comb(len(width), size) > MOST_MINORS:
         raise _TooManyMinors(f"a matrix has more than {MOST_MINORS} minors of size {size}")
-    for own in combinations(range(len(rows)), size):
-        for columns in combinations(range(width), size):
+    for own in combinations(height, size):
+        for columns in combinations(width, size):
             yield list(own), list(columns), [[rows[i][j] for j in columns] for i in own]
+
+
+def _passive_factors(at: RealSet) -> list[fmpq_mpoly]:
+    """Factors of passive entries that are not known to vanish nowhere on a set, short ones first."""
+    passive = [j for j, role in enumerate(at.roles) if role == "passive"]
+    entries = [remainder(row[j], at.equations) for row in at.matrix for j in passive]
+    units = units_of(at)
+    found = (factor for entry in entries for factor in factors(entry, units))
+    return sorted(found, key=lambda f: (len(f), f.total_degree(), str(f)))
 
 
 def _pivot(at: RealSet) -> dict[str, Any] | None:
     """The pivot in a passive column that leaves the fewest entries, constants first."""
     best: tuple[tuple[int, ...], dict[str, Any]] | None = None
+    units = units_of(at)
     for j in (j for j, role in enumerate(at.roles) if role == "passive"):
         below = [i for i, row in enumerate(at.matrix) if row[j]]
         for i in below:
@@ -379,6 +398,6 @@ def _pivot(at: RealSet) -> dict[str, Any] | None:
             entry = remainder(row[j], at.equations)
             cost = (len(below) - 1) * (sum(map(bool, row)) - 1)
             key = (int(not entry.is_constant()), cost, sum(map(len, row)))
-            if (best is None or key < best[0]) and (form := product_of_units(entry, at)) is not None:
+            if (best is None or key < best[0]) and (form := product_of_units(entry, at, units)) is not None:
                 best = key, {"row": i, "column": j, **form}
     return None if best is None else best[1]

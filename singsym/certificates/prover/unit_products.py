@@ -6,12 +6,14 @@ Source: unique factorisation; modulo the equations of a set by remainders.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import product
+from functools import cache
+from itertools import chain, product
 from typing import Any
 
 from flint import fmpq, fmpq_mpoly
 
 from singsym.certificates.checker.polynomials import Rejected, determinant, primitive, remainder
+from singsym.certificates.checker.rules import is_unit
 from singsym.certificates.checker.sets import RealSet
 from singsym.effort.budget import Undecided, current
 
@@ -23,28 +25,41 @@ LARGEST = 6
 """Larger determinants are expanded modulo the equations only."""
 
 
-def factors(f: fmpq_mpoly) -> list[fmpq_mpoly]:
-    """The irreducible factors of a polynomial, primitive, short ones first."""
-    if f.is_constant():
-        return []
-    return sorted((primitive(factor) for factor, _ in f.factor()[1]), key=lambda p: (len(p), str(p)))
+Units = Sequence[tuple[int, fmpq_mpoly]]
+"""Units by their places, each as it is written, and as it is modulo the equations where that differs."""
 
 
-def product_of_units(f: fmpq_mpoly, at: RealSet) -> dict[str, Any] | None:
-    """`units` and `scale` of a polynomial that is a product of units times a number, as it is written."""
+def factors(f: fmpq_mpoly, units: Units) -> list[fmpq_mpoly]:
+    """The irreducible factors of a polynomial that are no units, primitive, short ones first."""
+    found = [] if f.is_constant() else [primitive(factor) for factor, _ in f.factor()[1]]
+    known = [primitive(unit) for _, unit in units]
+    return sorted((factor for factor in found if factor not in known), key=lambda p: (len(p), str(p)))
+
+
+def units_of(at: RealSet) -> Units:
+    """All units of a set."""
+    reduced = [remainder(unit, at.equations) for unit in at.units]
+    written = [*enumerate(at.units), *((k, r) for k, r in enumerate(reduced) if r != at.units[k])]
+    return [(place, unit) for place, unit in written if not unit.is_constant()]
+
+
+def product_of_units(f: fmpq_mpoly, at: RealSet, units: Units) -> dict[str, Any] | None:
+    """`units` and `scale` of a polynomial that is a product of units times a number, as these are written."""
     if not f:
         return None
-    places: list[int] = []
-    for place, unit in enumerate(at.units):
-        while not unit.is_constant() and not f.is_constant():
-            quotient, rest = divmod(f, unit)
+    left, places = f, list[int]()
+    for place, unit in units:
+        while not left.is_constant():
+            quotient, rest = divmod(left, unit)
             if rest:
                 break
-            f = quotient
+            left = quotient
             places.append(place)
-    if not f.is_constant():
+    if not left.is_constant():
         return None
-    return _form(f.leading_coefficient(), places)
+    form = _form(left.leading_coefficient(), places)
+    # units as they are modulo equations that are no basis may have another product
+    return form if is_unit(f, at, form) else None
 
 
 def _form(scale: fmpq, places: list[int]) -> dict[str, Any]:
@@ -55,19 +70,28 @@ def _form(scale: fmpq, places: list[int]) -> dict[str, Any]:
 def cancelled(f: fmpq_mpoly, at: RealSet) -> dict[str, Any] | None:
     """`units` and `power` as of the rule `cancel`, where some show that a polynomial vanishes on the set.
 
-    Its powers alone, then times powers of one unit, then of all of them.
+    Its powers alone, then times powers of one unit, or of all of them: low powers first.
     """
-    one, places = at.context.constant(1), range(len(at.units))
-    ways = [[place] for place in places] + ([[*places]] if len(places) > 1 else [])
+    places = range(len(at.units))
+    ways = [(place,) for place in places] + ([(*places,)] if len(places) > 1 else [])
     powers = range(1, 2 if f.is_constant() else HIGHEST_POWER + 1)
-    for way, count in [([], 1), *product(ways, range(1, HIGHEST_POWER + 1))]:
-        found = one
-        for factor in (at.units[place] for place in way * count):
-            found = _times(found, factor, at)
-        for power in powers:
-            found = _times(found, f, at)
-            if not found:
-                return {"units": way * count, "power": power}
+
+    @cache
+    def tried(way: tuple[int, ...], count: int, power: int) -> fmpq_mpoly:
+        """So many of the units times a power, multiplied as the checker does it."""
+        if power:
+            return _times(tried(way, count, power - 1), f, at)
+        found = tried(way, count - 1, 0) if count else at.context.constant(1)
+        for place in way if count else ():
+            found = _times(found, at.units[place], at)
+        return found
+
+    more = product(range(1, HIGHEST_POWER + 1), powers, ways)
+    for count, power, way in chain(
+        ((0, power, ()) for power in powers), sorted(more, key=lambda one: (sum(one[:2]), one[1]))
+    ):
+        if count + power <= HIGHEST_POWER + 1 and not tried(way, count, power):
+            return {"units": [*way] * count, "power": power}
     return None
 
 
@@ -103,20 +127,16 @@ def spellings(
 
 
 def unit_form(
-    rows: Sequence[Sequence[fmpq_mpoly]], at: RealSet, known: Sequence[fmpq_mpoly]
+    rows: Sequence[Sequence[fmpq_mpoly]], at: RealSet, known: Sequence[fmpq_mpoly], units: Units
 ) -> dict[str, Any] | None:
     """`units` and `scale` of a minor that is a product of units on the set, where it is seen to be one."""
-    found = (product_of_units(f, at) for f in spellings(rows, at, known))
+    found = (product_of_units(f, at, units) for f in spellings(rows, at, known))
     return next((form for form in found if form is not None), None)
 
 
 def open_factors(
-    rows: Sequence[Sequence[fmpq_mpoly]], at: RealSet, known: Sequence[fmpq_mpoly]
+    rows: Sequence[Sequence[fmpq_mpoly]], at: RealSet, known: Sequence[fmpq_mpoly], units: Units
 ) -> list[fmpq_mpoly]:
     """Factors of a minor of which it is not known that they vanish nowhere on the set; fewest terms first."""
-    ways = []
-    for f in spellings(rows, at, known):
-        if len(f) <= MOST_TERMS:
-            units = [primitive(unit) for unit in at.units]
-            ways.append([factor for factor in factors(f) if factor not in units])
+    ways = [factors(f, units) for f in spellings(rows, at, known) if len(f) <= MOST_TERMS]
     return min(ways, key=lambda own: (max(map(len, own), default=0), len(own)), default=[])
