@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import combinations_with_replacement, islice
-from math import comb
+from itertools import combinations, combinations_with_replacement, islice
+from math import comb, prod
 from random import Random
 
 from flint import fmpq, fmpq_mat, fmpq_poly, fmpz_mat, nmod_mat, nmod_poly
@@ -32,6 +32,8 @@ from singsym.varieties.torsion import NormalForms, off_free, presentation, torsi
 
 _LARGEST_FIBRE = 120
 _LARGEST_SEARCH = 330
+_MOST_ROOTS = 5
+"""Of so many square roots all products are tried."""
 _PRIMES = 8
 """Modulo so many primes polynomials are factored at most, to see them irreducible over Q."""
 
@@ -131,7 +133,7 @@ def _at_fibre(place: Coordinates, rng: Random) -> Known[Splitting]:
             return premises.conclude(Splitting())
         fibre = quotient_algebra(inner, basis, partial(current().check, "decomposition"))
         may_be_field = True
-        for count, form in enumerate(_forms(inner, rng)):
+        for count, form in enumerate(_forms(inner, basis, rng)):
             current().check("decomposition")
             action = _action(fibre, form)
             degree = next(_residues(action)).degree()
@@ -158,11 +160,14 @@ def _at_fibre(place: Coordinates, rng: Random) -> Known[Splitting]:
 
 
 def _action(fibre: Algebra, form: Polynomial) -> fmpq_mat:
-    """Multiplication by a linear form."""
-    matrix = fmpq_mat(fibre.dimension, fibre.dimension)
+    """Multiplication by a linear form, or by a product of variables."""
+    total = fmpq_mat(fibre.dimension, fibre.dimension)
     for exponents, c in form.terms():
-        matrix += fibre.matrices[exponents.index(1)] * c
-    return matrix
+        first, *others = [fibre.matrices[i] for i, power in enumerate(exponents) if power]
+        for matrix in others:
+            first = first * matrix
+        total += first * c
+    return total
 
 
 def _residues(action: fmpq_mat) -> Iterator[nmod_poly]:
@@ -194,8 +199,12 @@ def _is_irreducible(action: fmpq_mat) -> bool | None:
     return None
 
 
-def _forms(ring: Ring, rng: Random) -> Iterator[Polynomial]:
-    """A random linear form (which separates points), then simple ones."""
+def _forms(ring: Ring, basis: Sequence[Polynomial], rng: Random) -> Iterator[Polynomial]:
+    """A random linear form (which separates points), then simple ones, and products of square roots.
+
+    Of square roots of elements of a field some product is in the field where they do not generate an
+    extension of full degree (Kummer).  Variables that are in a basis by their squares alone are such roots.
+    """
 
     def mixed(width: int) -> Polynomial:
         return sum((g * rng.randint(-width, width) for g in ring.gens), start=ring.gens[-1])
@@ -203,6 +212,10 @@ def _forms(ring: Ring, rng: Random) -> Iterator[Polynomial]:
     yield mixed(3)
     yield from ring.gens
     yield from (a - b for a, b in zip(ring.gens, ring.gens[1:], strict=False))
+    odd = {i for p in basis for m, _ in p.terms() for i, power in enumerate(m) if power % 2}
+    roots = [g for i, g in enumerate(ring.gens) if i not in odd][:_MOST_ROOTS]
+    for size in range(2, len(roots) + 1):
+        yield from map(prod, combinations(roots, size))
     yield mixed(9)
 
 

@@ -66,3 +66,23 @@ def test_finite_over_forms() -> None:
     assert all(
         place.turned().value.back(place.turned().value.ring.gens[-1]) == place.forms[0] for place in changed
     )
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_square_roots_of_which_a_product_is_rational(seed: int) -> None:
+    """A set of three square roots over an ellipse, from a 3-UPU: two pieces, as at each of its points.
+
+    At e = 7 the minimal polynomial of a c d has two factors of degree 4, those of a c, a d and c d have one.
+    """
+    ring = Ring(("a", "b", "c", "d", "e", "r"))
+    a, b, c, d, e, r = ring.gens
+    equations = (
+        r**2 - 3,
+        b**2 + b * e + e**2 - 3,
+        3 * a**2 - 3 * e**2 - b * r - 5 * e * r - 3,
+        3 * c**2 + 3 * b * e + b * r - e * r + 3,
+        3 * d**2 + 3 * b * e + 3 * e**2 + 5 * b * r + e * r - 12,
+    )
+    found = analyse(Ideal(ring, equations), seed=seed).value
+    assert len(found.factors) == 2
+    assert Ideal(ring, equations).contains(found.factors[0] * found.factors[1]).value
