@@ -60,7 +60,13 @@ def _row(number: int, region: Region, found: Regions) -> tuple[str, ...]:
     ends = ", ".join(str(k) for k, b in enumerate(found.borders, 1) if b in region.ends)
     share = f"{100 * _share(region, found):.1f} %" if found.axes else f"{len(region.points)} vertices"
     inputs = {k: v for k, v in region.joints.items() if k in found.inputs or not found.axes}
-    return str(number), share, ", ".join(_values(inputs, found.equation)), signs, ends or "nothing"
+    return (
+        str(number),
+        share,
+        ", ".join(_values(inputs, found.equation)),
+        signs,
+        ends or ("none seen" if found.axes else "nothing"),
+    )
 
 
 def _share(region: Region, found: Regions) -> float:
