@@ -16,11 +16,12 @@ from math import prod
 import sympy
 from flint import fmpq
 
-from singsym.conditions.incidences.grassmann_cayley import Vector, cross, determinant, dot, minus
+from singsym.conditions.incidences.grassmann_cayley import Vector, determinant, minus
 from singsym.conditions.incidences.incidences import Incidences
 from singsym.conditions.incidences.joint_values import JointRoots, joint_roots
 from singsym.conditions.incidences.quantities import Quantity, arrow, symbol
 from singsym.kinematics.nonzero import Certifier
+from singsym.kinematics.placement import cross, dot
 from singsym.polynomials import Polynomial
 
 MANY = 5000

@@ -151,8 +151,8 @@ def variables_of(polynomials: Iterable[Polynomial]) -> tuple[str, ...]:
 
 
 def dot(a: Coordinates, b: Coordinates) -> Polynomial:
-    """The scalar product of two vectors of space."""
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    """The scalar product of two vectors of one size."""
+    return sum((p * q for p, q in zip(a[1:], b[1:], strict=True)), start=a[0] * b[0])
 
 
 def cross(a: Coordinates, b: Coordinates) -> Coordinates:

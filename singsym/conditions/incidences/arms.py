@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
 
-from singsym.conditions.incidences.grassmann_cayley import Vector, cross, determinant, dot, minus
+from singsym.conditions.incidences.grassmann_cayley import Vector, determinant, minus
 from singsym.conditions.incidences.quantities import Quantity, arrow, bracket, symbol
 from singsym.kinematics.modules.words import listed
 from singsym.kinematics.nonzero import Certifier
-from singsym.kinematics.placement import PlacedJoint
+from singsym.kinematics.placement import PlacedJoint, cross, dot
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.polynomials import Polynomial
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from singsym.kinematics.placement import cross, dot
 from singsym.polynomials import Polynomial
 
 Vector = tuple[Polynomial, ...]
@@ -18,16 +19,6 @@ Vector = tuple[Polynomial, ...]
 def minus(a: Vector, b: Vector) -> Vector:
     """a - b."""
     return tuple(p - q for p, q in zip(a, b, strict=True))
-
-
-def dot(a: Vector, b: Vector) -> Polynomial:
-    """The scalar product."""
-    return sum((p * q for p, q in zip(a[1:], b[1:], strict=True)), start=a[0] * b[0])
-
-
-def cross(a: Vector, b: Vector) -> Vector:
-    """The vector product of vectors in space."""
-    return tuple(a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2] for i in range(3))
 
 
 def along(point: Vector, direction: Vector) -> Vector:

@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Container, Iterator
 from itertools import combinations
 
-from singsym.conditions.incidences.grassmann_cayley import cross, dot, minus
+from singsym.conditions.incidences.grassmann_cayley import minus
 from singsym.conditions.incidences.quantities import Quantity, arrow, bracket, symbol
-from singsym.kinematics.placement import Architecture, Coordinates
+from singsym.kinematics.placement import Architecture, Coordinates, cross, dot
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.polynomials import Polynomial
 

@@ -17,12 +17,13 @@ from dataclasses import dataclass
 from functools import cached_property
 from math import prod
 
-from singsym.conditions.incidences.grassmann_cayley import Vector, determinant, dot, plane
+from singsym.conditions.incidences.grassmann_cayley import Vector, determinant, plane
 from singsym.conditions.incidences.legs import legs
 from singsym.conditions.incidences.quantities import Quantity, arrow, bracket, symbol
 from singsym.conditions.incidences.wrenches import Line, Support, support
 from singsym.kinematics.modules.words import listed
 from singsym.kinematics.nonzero import Certifier
+from singsym.kinematics.placement import dot
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.minors.determinant import TooManyTerms, block_determinants
 from singsym.minors.determinant import determinant as matrix_determinant

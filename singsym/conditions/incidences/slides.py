@@ -8,8 +8,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 
-from singsym.conditions.incidences.grassmann_cayley import dot, minus
+from singsym.conditions.incidences.grassmann_cayley import minus
 from singsym.conditions.incidences.quantities import Quantity, arrow, bracket, symbol
+from singsym.kinematics.placement import dot
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.polynomials import Polynomial
 

@@ -16,9 +16,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import combinations, product
 
-from singsym.conditions.incidences.grassmann_cayley import Vector, along, cross, dot, felt, join, minus
+from singsym.conditions.incidences.grassmann_cayley import Vector, along, felt, join, minus
 from singsym.conditions.incidences.legs import Leg
 from singsym.kinematics.nonzero import Certifier
+from singsym.kinematics.placement import cross, dot
 from singsym.minors.determinant import maximal_minors
 from singsym.polynomials import Polynomial, PolynomialMatrix
 

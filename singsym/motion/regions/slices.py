@@ -37,6 +37,7 @@ from singsym.motion.drives import DrivenSystem, driven_system
 from singsym.motion.regions.borders import Borders
 from singsym.polynomials import Equations, Polynomial, PolynomialMatrix, Ring
 from singsym.polynomials.compiled_map import CompiledMap, Floats
+from singsym.polynomials.unit_circles import half_angle_point
 from singsym.varieties.real.curves.critical_points import is_bounded
 
 _HALF_ANGLE = Ring(("t",))
@@ -174,7 +175,7 @@ class Slices:
             yield from ((t,) for t in between if t > 0 or not is_square)
             return
         for t in between if at_half_turn or len(between) == 1 else between[1:]:
-            yield (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)
+            yield half_angle_point(t)
 
     def _projected(self, special: Equations) -> list[Polynomial]:
         """Polynomials in the input's value alone that vanish on a set."""
