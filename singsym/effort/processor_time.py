@@ -5,6 +5,7 @@ Source: clock_getcpuclockid(3), whose Linux clocks of other processes are number
 
 from __future__ import annotations
 
+import gc
 import sys
 import threading
 import time
@@ -16,12 +17,17 @@ _GRAIN = 0.005
 """Seconds in which the clock is read once: it is a call of the system, and asked for all the time."""
 
 
+_OLDEST = 2
+"""The generation of a full garbage collection."""
+
+
 class _Work(threading.local):
     """What this thread worked when its clock was last read, when that was, and what it waited for."""
 
     own = 0.0
     read_at = -1.0
     waited_for = 0.0
+    collects_since = 0.0
 
 
 _thread = _Work()
@@ -46,6 +52,19 @@ def worked() -> float:
 def charge(seconds: float) -> None:
     """Add work that another process did for this thread."""
     _thread.waited_for += seconds
+
+
+def _without_collecting(phase: str, info: dict[str, int]) -> None:
+    """A full garbage collection, that costs what all else in the process holds, is no work of this thread."""
+    if info["generation"] < _OLDEST:
+        return
+    if phase == "start":
+        _thread.collects_since = _clock()
+    else:
+        charge(_thread.collects_since - _clock())
+
+
+gc.callbacks.append(_without_collecting)
 
 
 class Meter:

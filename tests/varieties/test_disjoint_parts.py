@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
 
 import pytest
 
+from singsym.effort import patience
 from singsym.polynomials import Equations, Ring
 from singsym.polynomials.ring import AlgebraicConstant
 from singsym.varieties.disjoint_parts import disjoint_parts
@@ -14,6 +16,13 @@ RING = Ring(("x", "y", "u", "v", "w"))
 X, Y, U, V, W = RING.gens
 IN_LINE = (X - 3) * (V + 1) - (Y + 1) * (U - 3)
 """(x, y), (u, v) and (3, -1) are in line."""
+
+
+@pytest.fixture(autouse=True)
+def without_hurry() -> Iterator[None]:
+    """What is found is tested here, not how soon."""
+    with patience.scaled(20.0):
+        yield
 
 
 def dyad(to_point: int, to_ground: int) -> Equations:
