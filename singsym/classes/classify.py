@@ -233,7 +233,8 @@ class _Work:
         """
         limits = self.limits
         tasks = [self._task(f, f.stratum.defects.delta) for f in found]
-        quick = [replace(task, seconds=limits.part(patience.FIRST_LOOK.work)) for task in tasks]
+        first, bounding = limits.part(patience.FIRST_LOOK.work), patience.FIRST_BOUND.work
+        quick = [replace(task, seconds=first, bounding=bounding) for task in tasks]
         realised = realise_all(self.runner, quick, "real points", self.ends.pieces, self.told.take)
         self._look_again(tasks, realised, limits.part(patience.SECOND_LOOK.work), "real points, second look")
         self._look_again(tasks, realised, limits.seconds, "real points, at length", most=1)

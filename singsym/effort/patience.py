@@ -73,6 +73,7 @@ EMPTINESS = Patience(30.0, "a part without known points is decomposed")
 
 # what is real of a stratum
 FIRST_LOOK = Patience(1.0, "a second look, where more may be said")
+FIRST_BOUND = Patience(0.3, "a second look bounds the dimension, if it is not below that of its class")
 SECOND_LOOK = Patience(5.0, "undecided, or a last look where its class is not known to be large")
 LARGER_PART = Patience(15.0, "the dimension of the class is open from above")
 POINT = Patience(10.0, "the next numerical point is tried")

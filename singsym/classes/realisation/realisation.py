@@ -63,7 +63,7 @@ class RealTask:
     most: a bound of the real dimension, if there is one; coordinates: local ones of the space wherever the
     stratum has that dimension (see `local_coordinates`); circles: variables that are cosine and sine of an
     angle; known: a dimension, where only a larger one of the stratum would matter; seen: whether a point of
-    it is known.
+    it is known; bounding: work for a bound of the dimension once it is known from below, None without limit.
     """
 
     found: Found
@@ -76,6 +76,7 @@ class RealTask:
     circles: tuple[Pair, ...] = ()
     known: int | None = None
     seen: bool = False
+    bounding: float | None = None
 
     def unfinished(self, reason: str) -> Realised:
         """A piece for each image of the stratum, undecided for this reason."""
@@ -231,14 +232,15 @@ def _bounded(
     most, (dimension, witness) = piece.extent.at_most, known
     found, points = _known(piece, Extent(dimension, most), witness)
     try:
-        for larger, other in chain([known], larger_parts(off_borders(system), dimension)):
-            found, points = _known(piece, Extent(larger, most), other)
-            if larger == most:
-                return found, points
-            if (bound := _bound(system, larger, task)) is not None:
-                extent = Extent(larger, bound.value, bound.certainty)
-                return replace(found, extent=extent), points
-        return _by_components(piece, system)
+        with current().part(task.bounding):
+            for larger, other in chain([known], larger_parts(off_borders(system), dimension)):
+                found, points = _known(piece, Extent(larger, most), other)
+                if larger == most:
+                    return found, points
+                if (bound := _bound(system, larger, task)) is not None:
+                    extent = Extent(larger, bound.value, bound.certainty)
+                    return replace(found, extent=extent), points
+            return _by_components(piece, system)
     except Undecided as reason:
         return replace(found, extent=replace(found.extent, open=str(reason))), points
 
