@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from singsym.output.citations import SHORT
 from singsym.polynomials import Equations, Polynomial
+from singsym.polynomials.unit_circles import unit_circles
 
 if TYPE_CHECKING:
     from singsym.classes.result import Classification, ClassResult, Locus, Piece
@@ -88,6 +89,21 @@ def loop_equations(equation: VelocityEquation) -> Equations:
     """The equations of the configuration space, without those that only define its constants."""
     constants = {c.name for c in equation.space.ring.constants}
     return tuple(e for e in equation.space.equations if not constants.issuperset(e.variables))
+
+
+def angles_counted_elsewhere(equation: VelocityEquation) -> tuple[str, ...]:
+    """The cosine and sine of each angle whose variables are counted from elsewhere than its own zero."""
+    space = equation.space
+    constants = {c.name for c in space.ring.constants}
+    lines = []
+    for pair in unit_circles(space.equations):
+        for name, value in equation.values.items():
+            c, s = value.cosine, value.sine
+            if c is None or s is None or value.scale != 1 or c == space.ring.gen(pair[0]):
+                continue
+            if {*c.variables, *s.variables} - constants == {*pair}:
+                lines.append(f"cos {name} = {c}, sin {name} = {s}")
+    return tuple(lines)
 
 
 def varying(coordinates: Mapping[str, str], equation: VelocityEquation) -> dict[str, str]:

@@ -14,6 +14,7 @@ from singsym.mechanism.choices import is_redundant
 from singsym.output.page import Block, Grid, Page
 from singsym.output.pieces import (
     alike,
+    angles_counted_elsewhere,
     extent_of,
     filled,
     grouped,
@@ -70,7 +71,12 @@ def mechanism_page(mechanism: Mechanism, equation: VelocityEquation) -> Page:
         *(f"Coupled: {coupling_text(c)}" for c in mechanism.couplings),
     ]
     joints = tuple(_joint_row(j, mechanism) for j in mechanism.joints)
-    variables = f"Configuration variables ({space.formulation}): {', '.join(space.variables)}"
+    variables = "\n".join(
+        (
+            f"Configuration variables ({space.formulation}): {', '.join(space.variables)}",
+            *(f"  {line}" for line in angles_counted_elsewhere(equation)),
+        )
+    )
     equations = [f"  {e.short_text(LONGEST)} = 0" for e in loop_equations(equation)]
     return (
         "\n".join(head),

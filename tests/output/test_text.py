@@ -3,6 +3,7 @@
 from singsym.classes.classify import classify
 from singsym.kinematics.velocity import velocity_equation
 from singsym.mechanism import load
+from singsym.mechanism.fileformat import loads
 from singsym.output.page import Grid, plain
 from singsym.output.pieces import grouped, moving
 from singsym.output.text import classification_page, mechanism_page
@@ -34,3 +35,28 @@ def test_pieces_of_a_class_are_gathered_and_fixed_points_left_out():
     names = {name.partition(".")[0] for name in moving(dead.witnesses[0].points, result.equation)}
     assert names == {"B", "C"}
     assert "Engines: flint" in plain(classification_page(result))
+
+
+def test_a_page_says_from_where_an_angle_is_counted():
+    """The smallest turn from z to u = (-sqrt(3)/2, -1/2, 0) takes x to (1/4, -sqrt(3)/4, sqrt(3)/2).
+
+    Along z that is sqrt(3)/2, and u x that is 1/2: the rod points along z where B is 30 degrees, and there the
+    angle inside begins.
+    """
+    arm = loads(
+        """
+        name = "arm"
+        space = "spatial"
+        inputs = ["P", "B"]
+        output = { twist = "rod", at = "C", components = ["vx", "vz"] }
+        [links]
+        ground = { points = { A = [0, 0, 0] }, axes = { z = [0, 0, 1] } }
+        slide = { points = { B = [0, 0, 0] }, axes = { z = [0, 0, 1], t = ["-sqrt(3)/2", "-1/2", 0] } }
+        rod = { points = { B = [0, 0, 0], C = [1, 0, 0] }, axes = { t = [0, 0, 1] } }
+        [joints]
+        P = { type = "P", links = ["ground", "slide"], at = ["A", "B"], axis = "z" }
+        B = { axis = "t" }
+        """
+    )
+    page = plain(mechanism_page(arm, velocity_equation(arm)))
+    assert "cos B = 1/2*c_Bo*sqrt3 - 1/2*s_Bo, sin B = 1/2*s_Bo*sqrt3 + 1/2*c_Bo" in page

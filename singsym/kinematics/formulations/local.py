@@ -148,6 +148,19 @@ def shortest_rotation(start: Vector, end: Vector) -> Matrix:
     )
 
 
+def rotation(axis: Vector, cosine: sympy.Expr, sine: sympy.Expr) -> Matrix:
+    """The rotation about a unit vector by an angle of this cosine and sine.
+
+    >>> rotation(UNITS[2], sympy.Integer(0), sympy.Integer(1))
+    ((0, -1, 0), (1, 0, 0), (0, 0, 1))
+    """
+    columns = [
+        plus(plus(times(cosine, e), times(sine, cross(axis, e))), times((1 - cosine) * dot(axis, e), axis))
+        for e in UNITS
+    ]
+    return tuple(tuple(map(tidy, row)) for row in transpose(tuple(columns)))
+
+
 def perpendiculars(axis: Vector) -> tuple[Vector, Vector]:
     """Vectors n1, n2 of one length with (n1, n2, axis) a right-handed right-angled system.
 
@@ -223,6 +236,13 @@ class Geometry:
                 raise ValueError(f"joint {joint.name!r} ({joint.kind}) needs an axis in both links")
             return UNITS[2], UNITS[2]
         return self.axis(joint.first, joint.axes[0]), self.axis(joint.second, joint.axes[1])
+
+    def directions(self, link: str, joint: Joint) -> list[Vector]:
+        """The unit axes of a link, and the vectors from a joint's point to its other points, in its frame."""
+        own = self.mechanism.link(link)
+        here = self.points(joint)[0 if link == joint.first else 1]
+        arms = [minus(in_space(p), here) for p in own.points.values()]
+        return [*(self.axis(link, name) for name in own.axes), *(a for a in arms if not vanishes(a))]
 
     def zero(self, joint: Joint) -> Matrix:
         """The rotation of `second`'s frame in `first`'s where the joint's angle is zero.

@@ -10,6 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from singsym.kinematics.formulations import local
+from singsym.kinematics.formulations.angle_origins import Origin, simplest_origin
 from singsym.kinematics.formulations.frames import Algebra, Body, composed, minus, plus, rigid, turned
 from singsym.kinematics.placement import Coordinates, JointValue
 from singsym.mechanism.model import Joint, JointKind, Mechanism
@@ -18,6 +19,9 @@ from singsym.polynomials.unit_circles import circle
 
 _ROTATIONS = {JointKind.R: 1, JointKind.H: 1, JointKind.C: 1, JointKind.U: 2, JointKind.E: 1}
 _LENGTHS = {JointKind.P: 1, JointKind.H: 1, JointKind.C: 1, JointKind.E: 2}
+_SINGLE = (JointKind.R, JointKind.C)
+_COUNTED_ELSEWHERE = "o"
+"""Ends the names of variables of angles that are not counted from the joint's own zero."""
 
 
 @dataclass(frozen=True)
@@ -29,9 +33,14 @@ class Turn:
     """
 
     axis: local.Vector
-    after: local.Matrix
+    origin: Origin
     name: str
     sense: int
+
+    @property
+    def after(self) -> local.Matrix:
+        """The constant rotation that follows."""
+        return self.origin.after
 
     @property
     def variables(self) -> tuple[str, str]:
@@ -120,9 +129,14 @@ def plan(
         turns = []
         after = local.IDENTITY
         for axis, constant, suffix in _rotations(joint, geometry, forward):
+            origin = Origin(constant)
             sense = local.parallel(run.axis, axis) if run is not None and absolute else 0
             if run is None or sense == 0:
-                terms: tuple[tuple[int, str], ...] = ((1, stems[joint.name] + suffix),)
+                if joint.kind in _SINGLE:
+                    sides = (geometry.directions(link, joint) for link in (parent, child))
+                    origin = simplest_origin(axis, constant, *sides)
+                own = suffix if origin.is_own else suffix + _COUNTED_ELSEWHERE
+                terms: tuple[tuple[int, str], ...] = ((1, stems[joint.name] + own),)
                 run = Run(axis, terms)
             else:
                 terms = (*run.terms, (sense, stems[joint.name] + suffix))
@@ -131,8 +145,8 @@ def plan(
             while name in used:
                 name += "_"
             used.add(name)
-            turns.append(Turn(axis, constant, name, sense))
-            run = Run(local.apply(local.transpose(constant), run.axis), run.terms)
+            turns.append(Turn(axis, origin, name, sense))
+            run = Run(local.apply(local.transpose(origin.after), run.axis), run.terms)
         if not turns and run is not None:
             after = slide_frame(joint, geometry, forward)
             run = Run(local.apply(local.transpose(after), run.axis), run.terms)
@@ -236,7 +250,7 @@ def grow(geometry: local.Geometry, algebra: Algebra, roots: dict[str, Body], ste
                 angles.append(_difference(c, s, base, turn.sense))
                 base = _Base(base.frame, base.axis, c, s, local.product(base.after, turn.after))
             else:
-                angles.append(JointValue(c, s, algebra.ring.one))
+                angles.append(_own_angle(algebra, c, s, turn.origin))
                 base = _Base(frame, turn.axis, c, s, turn.after)
             frame = composed(algebra, turned(algebra, base.frame, base.axis, c, s), base.after)
         if not step.turns:
@@ -275,6 +289,15 @@ def _child(
         position = plus(position, tuple(sign * x for x in shift))
     offset = turned_child.direction(there)
     return rigid(algebra, tuple(map(algebra.ring.reduced, minus(position, offset))), frame)
+
+
+def _own_angle(algebra: Algebra, cosine: Polynomial, sine: Polynomial, origin: Origin) -> JointValue:
+    """The joint's own angle from one that is counted elsewhere."""
+    if origin.is_own:
+        return JointValue(cosine, sine, algebra.ring.one)
+    c, s = algebra.number(origin.cosine), algebra.number(origin.sine)
+    own = (cosine * c - sine * s, sine * c + cosine * s)
+    return JointValue(algebra.ring.reduced(own[0]), algebra.ring.reduced(own[1]), algebra.ring.one)
 
 
 def _difference(cosine: Polynomial, sine: Polynomial, base: _Base, sense: int) -> JointValue:

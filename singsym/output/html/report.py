@@ -22,6 +22,7 @@ from singsym.output.html.certificate import Proof, certificate, linked
 from singsym.output.html.curves import curves
 from singsym.output.html.proofs import proofs
 from singsym.output.pieces import (
+    angles_counted_elsewhere,
     counted,
     extent_of,
     loop_equations,
@@ -371,6 +372,7 @@ def _equations(classification: Classification) -> str:
     space = equation.space
     loops = "".join(_line(math.equation(e, longest=24)) for e in loop_equations(equation))
     parts = [f"<p>Configuration variables: {escape(', '.join(space.variables))}.</p>"]
+    parts += [f"<p>{escape(line)}</p>" for line in angles_counted_elsewhere(equation)]
     parts.append(f"<h3>Loop equations</h3>{loops}" if loops else "<p>No loop equations.</p>")
     columns = [c.label for c in equation.columns]
     parts.append(f"<h3>Velocity equation</h3>{_matrix(equation.L, columns)}")

@@ -7,7 +7,7 @@ import sympy
 
 from singsym.kinematics.dimensions import Sized, dimensions
 from singsym.kinematics.formulations.frames import Algebra, rigid
-from singsym.kinematics.formulations.local import Geometry
+from singsym.kinematics.formulations.local import Geometry, apply, cross
 from singsym.kinematics.formulations.tree import Grown, by_branch, grow, plan, spanning_steps
 from singsym.mechanism import load
 from singsym.mechanism.model import Joint, JointKind, JointRate, Link, Mechanism, Space
@@ -95,3 +95,34 @@ def test_the_legs_of_a_tree_come_one_after_the_other() -> None:
     after_ground = [k for k, step in enumerate(steps) if step.parent == mechanism.ground]
     for k, step in enumerate(steps):
         assert k in after_ground or steps[k - 1].child == step.parent
+
+
+def test_an_angle_counted_elsewhere_turns_by_the_joint_s_own() -> None:
+    """A hinge that stands askew on a slide along z: inside, its angle begins where the rod points along z.
+
+    With p across the axis u at the joint's own zero, the rod's end is cos B p + sin B u x p off the slide.
+    """
+    root = sympy.sqrt(3)
+    askew = (-root / 2, -ONE / 2, ZERO)
+    links = (
+        Link("ground", {"A": (ZERO,) * 3}, {"z": UP}),
+        Link("slide", {"B": (ZERO,) * 3}, {"z": UP, "t": askew}),
+        Link("rod", {"B": (ZERO,) * 3, "C": ASIDE}, {"t": UP}),
+    )
+    joints = (
+        Joint("P", JointKind.P, "ground", "slide", ("A", "B"), ("z", "z")),
+        Joint("B", JointKind.R, "slide", "rod", ("B", "B"), ("t", "t")),
+    )
+    geometry, sized, grown = grown_arm(
+        Mechanism("leg", Space.SPATIAL, "ground", links, joints, ("P",), (JointRate("B"),))
+    )
+    assert sized.ring.names[:3] == ("d_P", "c_Bo", "s_Bo")
+    value, end = grown.values["B"], grown.bodies["rod"].point(ASIDE)
+    assert value.cosine is not None
+    assert value.sine is not None
+    start = apply(geometry.zero(joints[1]), ASIDE)
+    above = (sized.ring.zero, sized.ring.zero, sized.ring.gen("d_P"))
+    for found, along, across, slide in zip(end, start, cross(askew, start), above, strict=True):
+        expected = value.cosine * sized.number(along) + value.sine * sized.number(across) + slide
+        assert sized.ring.reduced(found - expected).is_zero
+    assert {*end[2].variables} == {"d_P", "c_Bo"}
