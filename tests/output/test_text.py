@@ -40,8 +40,8 @@ def test_pieces_of_a_class_are_gathered_and_fixed_points_left_out():
 def test_a_page_says_from_where_an_angle_is_counted():
     """The smallest turn from z to u = (-sqrt(3)/2, -1/2, 0) takes x to (1/4, -sqrt(3)/4, sqrt(3)/2).
 
-    Along z that is sqrt(3)/2, and u x that is 1/2: the rod points along z where B is 30 degrees, and there the
-    angle inside begins.
+    Along z that is sqrt(3)/2, and u x that is 1/2: where B is 30 degrees the rod points along z,
+    and the angle inside begins there.
     """
     arm = loads(
         """
