@@ -49,6 +49,7 @@ from singsym.varieties.real.points.certified_point import Witness, find_witness
 from singsym.varieties.real.points.exact_point import RealPoint
 from singsym.varieties.real.points.finite_sets import real_points
 from singsym.varieties.real.proofs.critical_points import sample_points
+from singsym.varieties.real.proofs.positive_combinations import is_positive_combination_seen
 from singsym.varieties.real.proofs.vector_charts import Cartesian
 from singsym.varieties.real.system import RealSystem
 
@@ -214,6 +215,8 @@ def _given_in_one(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Pie
             return _finite(piece, isolated)
     patch = unsplit(system.closed_equations, system.ring)
     if codimension is None:
+        if is_positive_combination_seen(system.closed_equations):
+            return _exactly(piece, Known((-1, None)))
         empty = is_proven_empty(restricted(system, patch))
         if empty.is_yes:
             return _exactly(piece, Known((-1, None), empty.certainty))

@@ -37,6 +37,7 @@ from singsym.polynomials import Equations, Polynomial
 from singsym.polynomials.unit_circles import unit_circles
 from singsym.varieties.decomposition import decompose
 from singsym.varieties.disjoint_parts import disjoint_parts
+from singsym.varieties.real.proofs.positive_combinations import is_positive_combination_seen
 from singsym.varieties.real.proofs.real_consequences import real_consequences
 from singsym.varieties.real.system import RealSystem
 from singsym.varieties.splitting import irreducible_factors
@@ -221,6 +222,8 @@ class _Exploring:
             whole = unsplit(equations, branch.feasible.ring)
             system = restricted(branch.admitted, whole)
         if not points_on(system, whole, 1):
+            if is_positive_combination_seen(equations):
+                return
             if self.premises.grants(_is_soon_empty(system)):
                 return
             self.tried = True
