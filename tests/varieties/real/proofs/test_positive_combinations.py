@@ -28,7 +28,7 @@ def test_a_point_out_of_reach(distance: int, is_apart: bool) -> None:
 
 
 def test_a_rod_that_is_too_short_for_its_slides() -> None:
-    """(x - 3 s)^2 + (3 c + 9/2)^2 + 27/4 is positive: not to be seen at sight with 9 (s^2 + c^2) = 9 put in."""
+    """(x - 3 s)^2 + (3 c + 9/2)^2 + 27/4 is positive, which is hidden where 9 (s^2 + c^2) = 9 is put in."""
     equation = X**2 - 6 * X * S + 27 * C + 27 + 9 * (S**2 + C**2)
     given = (equation - 9 * (S**2 + C**2 - 1), C**2 + S**2 - 1)
     found = positive_combination(given)
