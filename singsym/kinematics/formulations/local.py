@@ -238,11 +238,11 @@ class Geometry:
         return self.axis(joint.first, joint.axes[0]), self.axis(joint.second, joint.axes[1])
 
     def directions(self, link: str, joint: Joint) -> list[Vector]:
-        """The unit axes of a link, and the vectors from a joint's point to its other points, in its frame."""
+        """The vectors from a joint's point to a link's other points, then the link's unit axes, in its frame."""
         own = self.mechanism.link(link)
         here = self.points(joint)[0 if link == joint.first else 1]
         arms = [minus(in_space(p), here) for p in own.points.values()]
-        return [*(self.axis(link, name) for name in own.axes), *(a for a in arms if not vanishes(a))]
+        return [*(a for a in arms if not vanishes(a)), *(self.axis(link, name) for name in own.axes)]
 
     def zero(self, joint: Joint) -> Matrix:
         """The rotation of `second`'s frame in `first`'s where the joint's angle is zero.
