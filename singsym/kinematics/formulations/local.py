@@ -238,7 +238,7 @@ class Geometry:
         return self.axis(joint.first, joint.axes[0]), self.axis(joint.second, joint.axes[1])
 
     def directions(self, link: str, joint: Joint) -> list[Vector]:
-        """The vectors from a joint's point to a link's other points, then the link's unit axes, in its frame."""
+        """Vectors from a joint's point to a link's other points, then the link's unit axes, in its frame."""
         own = self.mechanism.link(link)
         here = self.points(joint)[0 if link == joint.first else 1]
         arms = [minus(in_space(p), here) for p in own.points.values()]
