@@ -49,10 +49,10 @@ def positive_combination(polynomials: Sequence[Polynomial]) -> Polynomial | None
     >>> positive_combination([x**2 - y, y**2 + x + 1])
     x^2 + y^2 + x - y + 1
     >>> positive_combination([x**2 + y**2 - 4, x**2 + y**2 - 6 * x + 8])
-    3/2*x^2 + 3/2*y^2 - 6*x + 6
+    x^2 + y^2 - 4*x + 4
     >>> positive_combination([x**2 - y, y**2 + x])
     """
-    own = [f for f in polynomials if f and f.total_degree <= 2]
+    own = [f / max(abs(c) for _, c in f.terms()) for f in polynomials if f and f.total_degree <= 2]
     if not own or max(len(own), len(own[0].ring.names)) > MOST:
         return None
     weights = _weights(numpy.array([_gram(f) for f in own]))
@@ -65,7 +65,7 @@ def positive_combination(polynomials: Sequence[Polynomial]) -> Polynomial | None
         total = sum((f * fmpq(w.numerator, w.denominator) for f, w in pairs), start=own[0].ring.zero)
         found = squares_less_constant(total)
         if found is not None and found[0] > 0 and found[2] <= 0:
-            return total
+            return total.primitive()
     return None
 
 
@@ -76,8 +76,9 @@ def _gram(f: Polynomial) -> Floats:
     for exponents, coefficient in f.terms():
         places = [i for i, e in enumerate(exponents) for _ in range(int(e))]
         i, j = (*places, size, size)[:2]
-        form[i, j] += float(coefficient.p) / float(coefficient.q) / 2
-        form[j, i] += float(coefficient.p) / float(coefficient.q) / 2
+        half = float(Fraction(int(coefficient.p), int(coefficient.q)) / 2)
+        form[i, j] += half
+        form[j, i] += half
     return form
 
 
@@ -101,6 +102,8 @@ def _weights(forms: Floats) -> Floats:
             curvature = numpy.einsum("kij,lji->kl", moved, moved)
             curvature += 2 * ball / left + 4 * numpy.outer(ball @ at, ball @ at) / left**2
             step = -numpy.linalg.lstsq(curvature, slope, rcond=None)[0]
+            if not numpy.isfinite(step).all():
+                break
             while not _is_inside(at + step, directions, ball):
                 step = step / 2
             at = at + step

@@ -51,3 +51,11 @@ def test_what_has_a_point_has_no_positive_combination() -> None:
             value = f.evaluate(point)
             equations.append(f * value.denominator - value.numerator)
         assert not is_positive_combination_seen(equations)
+
+
+def test_coefficients_beyond_doubles_and_next_to_nothing() -> None:
+    """10^400 (x^2 + 1) has no zero; whether x^2 + 10^-400 + y and y have one, floats do not tell."""
+    large = 10**400
+    assert is_positive_combination_seen([large * (X**2 + 1), Y])
+    assert positive_combination([large * (X**2 + Y) + 1, Y]) in (None, large * X**2 + 1)
+    assert not is_positive_combination_seen([X**2 + Y, large * Y])
