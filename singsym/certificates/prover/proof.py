@@ -13,7 +13,7 @@ from itertools import combinations
 from math import comb
 from typing import Any
 
-from flint import fmpq, fmpq_mpoly
+from flint import fmpq_mpoly
 
 from singsym.certificates.checker.curves import components
 from singsym.certificates.checker.polynomials import Rejected, remainder
@@ -35,13 +35,12 @@ from singsym.certificates.prover.unit_products import (
     unit_form,
     units_of,
 )
+from singsym.certificates.prover.vanishing_squares import vanishing_squares
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Undecided, current
 from singsym.elimination.ideal import Ideal, intersection
 from singsym.polynomials import Polynomial, Ring
-from singsym.polynomials.sums_of_squares import squares_less_constant
 from singsym.varieties.decomposition import decompose
-from singsym.varieties.real.proofs.real_consequences import combined
 
 PART, WHOLE, EMPTY = 60.0, 600.0, 5.0
 """Seconds of work for one part of the configuration space, for all of it, and to see that a set is empty."""
@@ -144,7 +143,7 @@ class _Prover:
         left = self._unless_empty(node)
         if left is None:
             return
-        if terms := _squares(left.at):
+        if terms := vanishing_squares(left.at):
             (more,) = self.tree.apply(left, "squares", terms=terms)
             self._on_locus(more, loci)
         elif dimension_above(left.at) == 0:
@@ -338,18 +337,6 @@ def _has_zeros(at: RealSet) -> bool:
     """Whether the equations of a set that excludes nothing have complex zeros."""
     own = Ring(at.variables)
     return not at.units and Ideal(own, [Polynomial(own, e) for e in at.equations if e]).dimension.value >= 0
-
-
-def _squares(at: RealSet) -> list[list[str]]:
-    """Weights and polynomials whose squares add up to zero on a set, where not all vanish there anyway."""
-    ring = Ring(at.variables)
-    given, others = ([Polynomial(ring, g) for g in group if g] for group in (at.generators, at.equations))
-    for f in dict.fromkeys((*combined(given), *others)):
-        _, squares, less = squares_less_constant(f) or (0, (), fmpq(1))
-        terms = [*squares, *([(-less, ring.one)] if less < 0 else [])]
-        if less <= 0 and any(remainder(root.value, at.equations) for _, root in terms):
-            return [[str(weight), str(root)] for weight, root in terms]
-    return []
 
 
 def based(at: RealSet, known: int = 0) -> tuple[RealSet, dict[str, Any]]:
