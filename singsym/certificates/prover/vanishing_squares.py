@@ -36,9 +36,9 @@ def vanishing_squares(at: RealSet) -> list[list[str]]:
     """Weights and polynomials whose squares add up to zero on a set, where not all vanish there anyway."""
     ring = Ring(at.variables)
     given, others = ([Polynomial(ring, g) for g in group if g] for group in (at.generators, at.equations))
-    # of a Groebner basis those that are needed: they tell what is solved for
-    least = {*minimal(f.value.monomial(0) for f in others)}
-    positive = positive_combination([f for f in others if f.value.monomial(0) in least])
+    # the last ones are a Groebner basis, of which those that are needed tell what is solved for
+    led = {f.value.monomial(0): f for f in others}
+    positive = positive_combination([led[m] for m in minimal(led)])
     for f in dict.fromkeys((*combined(given), *others, *filter(None, [positive]))):
         _, squares, less = squares_less_constant(f) or (0, (), fmpq(1))
         terms = [*squares, *([(-less, ring.one)] if less < 0 else [])]
