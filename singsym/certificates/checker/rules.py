@@ -6,14 +6,16 @@ Kauers 2022).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from operator import mul
 from typing import Any
 
 from flint import fmpq_mpoly
 
 from singsym.certificates.checker.polynomials import (
     Rejected,
+    determinant,
     polynomial,
     primitive,
     rational,
@@ -98,6 +100,23 @@ def squares(at: RealSet, line: Line) -> tuple[RealSet, ...]:
     return (at.within([f for _, f in terms]),)
 
 
+def rows(at: RealSet, line: Line) -> tuple[RealSet, ...]:
+    """Rows become combinations of them, by a square matrix `by` with a determinant that vanishes nowhere."""
+    places, texts = listed(line, "rows"), listed(line, "by", list)
+    old, by = chosen(at.matrix, places, "row"), [[polynomial(t, at.context) for t in row] for row in texts]
+    if not old or {len(set(places)), len(by), *map(len, by)} != {len(old)}:
+        raise Rejected("rows: expected different ones, and a square matrix for them")
+    if not is_unit(determinant(by, at.equations), at, line):
+        raise Rejected("the determinant is not seen to be the product of units")
+
+    def combined(weights: Sequence[fmpq_mpoly]) -> tuple[fmpq_mpoly, ...]:
+        columns = zip(*old, strict=True)
+        return tuple(sum(map(mul, weights, column), start=at.context.constant(0)) for column in columns)
+
+    new = dict(zip(places, map(combined, by), strict=True))
+    return (replace(at, matrix=tuple(new.get(k, row) for k, row in enumerate(at.matrix))),)
+
+
 def pivot(at: RealSet, line: Line) -> tuple[RealSet, ...]:
     """A row and a passive column less, by a pivot that vanishes nowhere: all four ranks are one less."""
     i, j = whole_number(line, "row"), whole_number(line, "column")
@@ -121,5 +140,5 @@ def pivot(at: RealSet, line: Line) -> tuple[RealSet, ...]:
 
 
 RULES: dict[str, Callable[[RealSet, Line], tuple[RealSet, ...]]] = {
-    rule.__name__: rule for rule in (split, derive, cancel, squares, pivot)
+    rule.__name__: rule for rule in (split, derive, cancel, squares, rows, pivot)
 }

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-from flint import arb, arb_mat, ctx, fmpq, fmpq_mpoly
+from flint import arb, arb_mat, ctx, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
 from singsym.certificates.checker.balls import Compiled, is_off_zero, preconditioned
 from singsym.certificates.checker.polynomials import Rejected, polynomial, rational, remainder, ring
@@ -22,6 +22,8 @@ BITS = 200
 Values = Mapping[str, fmpq]
 INVERSE = "inverse__"
 """The name of the variable that is the inverse of a polynomial."""
+SCALE = "scale__"
+"""The name of the variable that makes polynomials homogeneous."""
 
 
 def dimension_above(at: RealSet) -> int:
@@ -30,6 +32,30 @@ def dimension_above(at: RealSet) -> int:
     if frozenset() in supports:
         return -1
     return len(at.variables) - _fewest(supports, len(at.variables))
+
+
+def dimension_within(at: RealSet, data: Mapping[str, Any]) -> int:
+    """A bound of the dimension, one less than the number of `forms`; raises `Rejected`.
+
+    forms: linear polynomials; steps, equations: as of `derive`, from these and the equations, all made
+    homogeneous by one more variable, to polynomials that are led by a power of each variable.  So there is no
+    common zero in projective space, and the closure of a larger set would meet all forms there.
+    """
+    forms = [polynomial(text, at.context) for text in listed(data, "forms", str)]
+    if any(f.total_degree() != 1 for f in forms):
+        raise Rejected("forms: expected polynomials of degree 1")
+    larger = ring([*at.context.names(), SCALE])
+    start = tuple(homogeneous(f, larger) for f in (*at.equations, *forms) if f)
+    (derived,) = derive(replace(at, context=larger, equations=start), data)
+    leading = [[i for i, e in enumerate(f.monomial(0)) if e] for f in derived.equations if f]
+    if not all([i] in leading for i in range(len(larger.names()))):
+        raise Rejected("dimension: expected polynomials that are led by a power of each variable")
+    return len(forms) - 1
+
+
+def homogeneous(f: fmpq_mpoly, larger: fmpq_mpoly_ctx) -> fmpq_mpoly:
+    """A polynomial times a power of the last variable in each term."""
+    return larger.from_dict({(*m, int(f.total_degree()) - sum(m)): c for m, c in f.terms()})
 
 
 def _fewest(supports: list[frozenset[int]], most: int) -> int:

@@ -28,7 +28,7 @@ from singsym.certificates.checker.sets import (
     statement,
     whole_number,
 )
-from singsym.certificates.checker.strata import dimension_above, dimension_below
+from singsym.certificates.checker.strata import dimension_above, dimension_below, dimension_within
 from singsym.certificates.checker.table import Finding, Row, claimed_rows, contradicted, proven_row, unproven
 
 FORMAT = "singsym certificate 2"
@@ -157,8 +157,9 @@ def _leaf(at: RealSet, about: Statement, line: Mapping[str, Any], before: Sequen
     if not types:
         raise Rejected("no defects are possible: N and n are not those of L")
     low = dimension_below(at, named(line, "point")) if "point" in line else -1
+    high = dimension_within(at, named(line, "dimension")) if "dimension" in line else dimension_above(at)
     if "curve" not in line:
-        return [Finding(at, types, None, low, dimension_above(at))]
+        return [Finding(at, types, None, low, high)]
     data = named(line, "curve")
     loops = components(at, {**named(line, "point", {}), **data})
     if not loops:
@@ -169,7 +170,7 @@ def _leaf(at: RealSet, about: Statement, line: Mapping[str, Any], before: Sequen
         if number not in curves:
             raise Rejected("meets: expected the line of a curve before")
         joins[number] = meetings((at, loops), curves[number], entry)
-    return [Finding(at, types, None, low, dimension_above(at), loops, joins=joins)]
+    return [Finding(at, types, None, low, high, loops, joins=joins)]
 
 
 def all_types(about: Statement) -> list[str]:

@@ -16,19 +16,22 @@ from typing import Any
 from flint import fmpq_mpoly
 
 from singsym.certificates.checker.curves import components
-from singsym.certificates.checker.polynomials import Rejected, remainder
+from singsym.certificates.checker.polynomials import Rejected, determinant, remainder
 from singsym.certificates.checker.ranks import bounds_on, possible_types
 from singsym.certificates.checker.rules import derive
 from singsym.certificates.checker.sets import RealSet, Statement
 from singsym.certificates.checker.strata import dimension_above
 from singsym.certificates.checker.table import Finding
 from singsym.certificates.prover.boxes import point_leaf, seems_in
+from singsym.certificates.prover.dimensions import dimension_leaf
 from singsym.certificates.prover.finite import points_leaf
 from singsym.certificates.prover.loops import all_zeros, curve_leaf
+from singsym.certificates.prover.passive_columns import mixed_rows, pivot
 from singsym.certificates.prover.traced_basis import traced_basis
 from singsym.certificates.prover.tree import Node, Tree
 from singsym.certificates.prover.unit_products import (
     cancelled,
+    MOST_TERMS,
     factors,
     open_factors,
     product_of_units,
@@ -42,8 +45,9 @@ from singsym.elimination.ideal import Ideal, intersection
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.decomposition import decompose
 
-PART, WHOLE, EMPTY = 60.0, 600.0, 5.0
-"""Seconds of work for one part of the configuration space, for all of it, and to see that a set is empty."""
+PART, WHOLE, EMPTY, BASIS = 60.0, 600.0, 5.0, 5.0
+"""Seconds of work for one part of the configuration space, for all of it, to see that a set is empty, and for a
+basis without which there may be a way."""
 MOST_MINORS = 400
 
 
@@ -56,13 +60,15 @@ class Hints:
     """What is known beforehand, none of it as a proof.
 
     loci: polynomials to split on; products: multiples of determinants, on the configuration space; points:
-    numerical configurations; curves: whether components of curves are wanted.
+    numerical configurations; curves: whether components of curves are wanted; columns: passive ones, in the
+    order in which they may go.
     """
 
     loci: tuple[fmpq_mpoly, ...] = ()
     products: tuple[fmpq_mpoly, ...] = ()
     points: tuple[tuple[float, ...], ...] = ()
     curves: bool = False
+    columns: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -76,7 +82,7 @@ class Proof:
 def prove(about: Statement, hints: Hints, seconds: float = WHOLE) -> Proof:
     """A proof; parts on which none is found in so much work are left open, with the reason."""
     prover = _Prover(Tree(about), hints)
-    prover.attempted(lambda: prover.take_apart(prover.reduced(prover.tree.root), hints.loci), seconds)
+    prover.attempted(prover.begin, seconds)
     closed = {line["at"] for line in prover.tree.lines}
     why = "; ".join(dict.fromkeys(map(str, prover.failures)))
     left = [number for number in range(prover.tree.numbers + 1) if number not in closed]
@@ -102,10 +108,17 @@ class _Prover:
                 raise Undecided(f"the checker would not follow: {error}") from None
         return None
 
-    def reduced(self, node: Node) -> Node:
+    def begin(self) -> None:
+        """The whole configuration space."""
+        node = self.reduced(self.tree.root, self.hints.columns)
+        self.take_apart(node, self.hints.loci)
+
+    def reduced(self, node: Node, first: Sequence[int] = ()) -> Node:
         """The set with a smaller matrix: passive columns go with pivots that are products of units."""
-        while (found := _pivot(node.at)) is not None:
-            (left,) = self.tree.apply(node, "pivot", **found)
+        while (found := pivot(node.at, first) or mixed_rows(node.at)) is not None:
+            (left,) = self.tree.apply(node, "pivot" if "column" in found else "rows", **found)
+            if (gone := found.get("column")) is not None:
+                first = [j - (j > gone) for j in first if j != gone]
             node = replace(left, full=node.full)
         return node
 
@@ -115,11 +128,15 @@ class _Prover:
             by = remainder(locus, node.at.equations)
             if not by or product_of_units(by, node.at, units_of(node.at)) is not None:
                 continue
+            if not _is_based(node):
+                # factors of determinants as they are
+                by = locus
             split = self._split(node, by, loci[k + 1 :])
             if split is None:
                 return
             node = split
-        self.attempted(lambda: self._ranked(node))
+        if not self._ranked_without_basis(node):
+            self.attempted(lambda: self._ranked(node))
 
     def _split(self, node: Node, by: fmpq_mpoly, loci: Sequence[fmpq_mpoly]) -> Node | None:
         """What is left of a set off the zeros of a polynomial, which are dealt with; None if it is empty."""
@@ -131,9 +148,12 @@ class _Prover:
             return replace(rest, full=True)
         return self._unless_empty(rest)
 
-    def _on_locus(self, node: Node, loci: Sequence[fmpq_mpoly]) -> int:
-        """A set with one more equation; its dimension over the complex numbers."""
-        node = self._based(node)
+    def _on_locus(self, node: Node, loci: Sequence[fmpq_mpoly]) -> int | None:
+        """A set with one more equation; its dimension over the complex numbers, where its basis is short."""
+        node = self._based_if_short(node)
+        if not _is_based(node):
+            self.take_apart(node, loci)
+            return None
         dimension = dimension_above(node.at)
         self._on_basis(node, loci)
         return dimension
@@ -157,6 +177,12 @@ class _Prover:
             return node
         (found,) = self.tree.apply(node, "derive", **_basis_steps(node.at, node.based))
         return replace(found, based=len(found.at.equations), full=node.full)
+
+    def _based_if_short(self, node: Node) -> Node:
+        """The same set, with a Groebner basis where one is found in a short time."""
+        with attempt("a short basis for a certificate", BASIS):
+            return self._based(node)
+        return node
 
     def _unless_empty(self, node: Node) -> Node | None:
         """A set, None where it is seen to be empty; then it is closed."""
@@ -219,6 +245,49 @@ class _Prover:
             if "point" not in data and dimension_above(at) == 1:
                 data |= self._curve(at, types, {})
         self.tree.leaf(node, "ranks", **data)
+
+    def _ranked_without_basis(self, node: Node) -> bool:
+        """A leaf where determinants of L_I and L_O decide the types as they are, or the set split on factors.
+
+        False where there is nothing of this kind.
+        """
+        if _is_based(node):
+            return False
+        at = node.at
+        free = replace(at, equations=())
+        evidence: dict[str, Any] = {}
+        for name in ("L_I", "L_O"):
+            rows = at.part(at.matrix, name)
+            if not rows or len(rows) != len(rows[0]):
+                return False
+            every, units = list(range(len(rows))), units_of(free)
+            f = determinant(rows, [])
+            divided = ((place, divmod(f, equation)) for place, equation in enumerate(at.equations))
+            multiple = next(((place, quotient) for place, (quotient, rest) in divided if f and not rest), None)
+            if multiple is not None:
+                shown: dict[str, Any] = {"below": len(rows), "of": multiple[0], "by": str(multiple[1])}
+            elif f and (form := product_of_units(f, free, units)) is not None:
+                shown = {"rows": every, "columns": every, **form}
+            elif f and len(f) <= MOST_TERMS and (left := factors(f, units)):
+                rest = self._split(node, left[0], ())
+                if rest is not None and not self._ranked_without_basis(rest):
+                    self.attempted(lambda: self._ranked(rest))
+                return True
+            else:
+                return False
+            evidence[name] = [shown | {"divisors": []}]
+        types = self._types(at, evidence)
+        if len(types) != 1:
+            return False
+        data: dict[str, Any] = {"ranks": evidence}
+        if types != {""}:
+            point = point_leaf(at, self.hints.points)
+            bound = None if point is None else dimension_leaf(at, point[1])
+            if point is None or bound is None:
+                return False
+            data |= {"point": point[0], "dimension": bound}
+        self.tree.leaf(node, "ranks", **data)
+        return True
 
     def _shown(self, at: RealSet, types: frozenset[str]) -> dict[str, Any]:
         """`point` and `curve` of a set, as far as they are found."""
@@ -372,19 +441,3 @@ def _passive_factors(at: RealSet) -> list[fmpq_mpoly]:
     units = units_of(at)
     found = (factor for entry in entries for factor in factors(entry, units))
     return sorted(found, key=lambda f: (len(f), f.total_degree(), str(f)))
-
-
-def _pivot(at: RealSet) -> dict[str, Any] | None:
-    """The pivot in a passive column that leaves the fewest entries, constants first."""
-    best: tuple[tuple[int, ...], dict[str, Any]] | None = None
-    units = units_of(at)
-    for j in (j for j, role in enumerate(at.roles) if role == "passive"):
-        below = [i for i, row in enumerate(at.matrix) if row[j]]
-        for i in below:
-            row = at.matrix[i]
-            entry = remainder(row[j], at.equations)
-            cost = (len(below) - 1) * (sum(map(bool, row)) - 1)
-            key = (int(not entry.is_constant()), cost, sum(map(len, row)))
-            if (best is None or key < best[0]) and (form := product_of_units(entry, at, units)) is not None:
-                best = key, {"row": i, "column": j, **form}
-    return None if best is None else best[1]
