@@ -73,7 +73,7 @@ def bounds_on(at: RealSet, about: Statement, evidence: Mapping[str, Any]) -> Bou
 
 
 def _rank(at: RealSet, rows: Rows, item: Mapping[str, Any], low: int, high: int) -> tuple[int, int]:
-    """The least and largest rank by one item of evidence, remainders by the equations `divisors`, else by all.
+    """The least and largest rank by one item of evidence, modulo the equations `divisors`, else modulo all.
 
     `{"below": k}`: all k-minors vanish, or are the product of the equation `of` and the polynomial `by`.
     `{"rows": ..., "columns": ..., "units": ..., "scale": ...}`: this minor is the product of units; with
@@ -90,10 +90,8 @@ def _rank(at: RealSet, rows: Rows, item: Mapping[str, Any], low: int, high: int)
             raise Rejected(f"not all {size}-minors are seen to vanish")
         return low, min(high, size - 1)
     own_rows, own_columns = listed(item, "rows"), listed(item, "columns")
-    chosen(rows, own_rows, "row")
-    chosen(rows[0] if rows else [], own_columns, "column")
-    size = len(own_rows)
-    if len(own_columns) != size or len(set(own_rows)) < size or len(set(own_columns)) < size:
+    size = len([chosen(row, own_columns, "column") for row in chosen(rows, own_rows, "row")])
+    if {len(own_columns), len(set(own_rows)), len(set(own_columns))} != {size}:
         raise Rejected("ranks: expected as many different rows as columns")
     if size and not is_unit(_minor(at, rows, own_rows, own_columns), at, item):
         raise Rejected("a minor is not seen to be the product of units")

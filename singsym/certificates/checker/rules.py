@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from operator import mul
+from functools import reduce
+from operator import add, mul
 from typing import Any
 
 from flint import fmpq_mpoly
@@ -109,12 +110,12 @@ def rows(at: RealSet, line: Line) -> tuple[RealSet, ...]:
     if not is_unit(determinant(by, at.equations), at, line):
         raise Rejected("the determinant is not seen to be the product of units")
 
-    def combined(weights: Sequence[fmpq_mpoly]) -> tuple[fmpq_mpoly, ...]:
-        columns = zip(*old, strict=True)
-        return tuple(sum(map(mul, weights, column), start=at.context.constant(0)) for column in columns)
-
-    new = dict(zip(places, map(combined, by), strict=True))
+    new = dict(zip(places, (_combined(weights, old) for weights in by), strict=True))
     return (replace(at, matrix=tuple(new.get(k, row) for k, row in enumerate(at.matrix))),)
+
+
+def _combined(weights: Sequence[fmpq_mpoly], rows: Sequence[Sequence[fmpq_mpoly]]) -> tuple[fmpq_mpoly, ...]:
+    return tuple(reduce(add, map(mul, weights, column)) for column in zip(*rows, strict=True))
 
 
 def pivot(at: RealSet, line: Line) -> tuple[RealSet, ...]:
@@ -127,15 +128,14 @@ def pivot(at: RealSet, line: Line) -> tuple[RealSet, ...]:
     if not is_unit(entry, at, line):
         raise Rejected("the pivot is not seen to be the product of units")
 
-    def left(k: int) -> tuple[fmpq_mpoly, ...]:
-        other = at.matrix[k]
-        if not other[j]:
-            return tuple(e for c, e in enumerate(other) if c != j)
-        pairs = enumerate(zip(other, row, strict=True))
-        return tuple(remainder(entry * a - other[j] * b, at.equations) for c, (a, b) in pairs if c != j)
+    def left(other: tuple[fmpq_mpoly, ...]) -> tuple[fmpq_mpoly, ...]:
+        if other[j]:
+            sums = _combined((entry, -other[j]), (other, row))
+            other = tuple(remainder(e, at.equations) for e in sums)
+        return other[:j] + other[j + 1 :]
 
-    matrix = tuple(left(k) for k in range(len(at.matrix)) if k != i)
-    roles = tuple(role for c, role in enumerate(at.roles) if c != j)
+    matrix = tuple(map(left, at.matrix[:i] + at.matrix[i + 1 :]))
+    roles = at.roles[:j] + at.roles[j + 1 :]
     return (replace(at, matrix=matrix, roles=roles, eliminated=at.eliminated + 1),)
 
 

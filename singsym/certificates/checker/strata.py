@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
 from flint import arb, arb_mat, ctx, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
@@ -28,10 +29,17 @@ SCALE = "scale__"
 
 def dimension_above(at: RealSet) -> int:
     """A bound of the dimension, by the leading monomials of the equations; -1 where one is constant."""
-    supports = [frozenset(i for i, e in enumerate(f.monomial(0)) if e) for f in at.equations if f]
-    if frozenset() in supports:
-        return -1
-    return len(at.variables) - _fewest(supports, len(at.variables))
+    supports = sorted(
+        {frozenset(i for i, e in enumerate(f.monomial(0)) if e) for f in at.equations if f}, key=len
+    )
+
+    @cache
+    def largest(names: frozenset[int]) -> int:
+        """The most of some variables such that no monomial is in these alone."""
+        inside = next((support for support in supports if support <= names), None)
+        return len(names) if inside is None else max((largest(names - {i}) for i in inside), default=-1)
+
+    return largest(frozenset(range(len(at.variables))))
 
 
 def dimension_within(at: RealSet, data: Mapping[str, Any]) -> int:
@@ -56,19 +64,6 @@ def dimension_within(at: RealSet, data: Mapping[str, Any]) -> int:
 def homogeneous(f: fmpq_mpoly, larger: fmpq_mpoly_ctx) -> fmpq_mpoly:
     """A polynomial times a power of the last variable in each term."""
     return larger.from_dict({(*m, int(f.total_degree()) - sum(m)): c for m, c in f.terms()})
-
-
-def _fewest(supports: list[frozenset[int]], most: int) -> int:
-    """The fewest variables of which each support has one; `most` where that many are not enough."""
-    if not supports:
-        return 0
-    if most == 0:
-        return 1
-    shortest = min(supports, key=lambda s: (len(s), sorted(s)))
-    best = most
-    for i in sorted(shortest):
-        best = min(best, 1 + _fewest([s for s in supports if i not in s], best - 1))
-    return best
 
 
 def dimension_below(at: RealSet, point: Mapping[str, Any]) -> int:

@@ -64,16 +64,6 @@ class Row:
     components: int | None = None
     together: Groups = ()
 
-    def text(self) -> str:
-        """The row in words."""
-        if not self.occurs:
-            return f"{self.types}: {'not proven' if self.occurs is None else 'empty'}"
-        numbers = ((self.points, "points"), (self.components, "components"))
-        sizes = [f"{k} {word}" for k, word in numbers if k is not None]
-        groups = [f"{len(own)} loops together" for own in self.together]
-        dimension = "dimension not proven" if self.dimension is None else f"dimension {self.dimension}"
-        return f"{self.types}: occurs, {', '.join((dimension, *sizes, *groups))}"
-
 
 def proven_row(types: str, findings: Iterable[Finding], together: Groups = ()) -> Row:
     """The row that all leaves of a certificate prove; raises `Rejected` where `together` is not of curves."""

@@ -32,12 +32,6 @@ from singsym.certificates.checker.strata import dimension_above, dimension_below
 from singsym.certificates.checker.table import Finding, Row, claimed_rows, contradicted, proven_row, unproven
 
 FORMAT = "singsym certificate 2"
-TRUSTED = (
-    "that L, the loop equations and the conditions are those of the mechanism",
-    "the arithmetic of FLINT: polynomials, factors over Q, roots, balls",
-    "this checker, and the Python that runs it",
-)
-"""What is taken on trust."""
 LEAVES = ("empty", "points", "ranks", "open")
 
 
@@ -58,7 +52,6 @@ class Verification:
     rules: Mapping[str, int]
     data: Mapping[str, Any]
     findings: tuple[Finding, ...]
-    trusted: tuple[str, ...] = TRUSTED
 
     @property
     def complete(self) -> bool:
@@ -188,7 +181,7 @@ def _missing(claims: tuple[Row, ...], proven: tuple[Row, ...], proof: _Proof) ->
         raise Rejected("claims: expected a row for each types that there can be, each once")
     for claim in claims:
         if contradicted(claim, by_types[claim.types]):
-            raise Rejected(f"claims: {claim.text()}; proven is {by_types[claim.types].text()}")
+            raise Rejected(f"claims: {claim}; proven is {by_types[claim.types]}")
         for what in unproven(claim, by_types[claim.types]):
             yield f"{claim.types}: {what}"
     for types in by_types:

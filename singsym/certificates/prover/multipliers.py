@@ -1,7 +1,7 @@
 """Polynomials that multiply others into an ideal.
 
-Source: normal forms are linear (Cox, Little, O'Shea, *Ideals, Varieties, and Algorithms*, 2.6 and 5.3), so that
-multipliers of bounded degree solve linear equations.
+Source: normal forms are linear (Cox, Little, O'Shea, *Ideals, Varieties, and Algorithms*, 2.6 and 5.3), so
+that multipliers of bounded degree solve linear equations.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ def _relations(products: Sequence[Sequence[fmpq_mpoly]], known: int) -> Iterator
         for k, f in enumerate(column):
             for m, c in f.terms():
                 table[places[k, m]][j] = c
-    reduced, rank = fmpq_mat(table).rref() if table else (None, 0)
+    reduced, rank = (fmpq_mat(table) if table else fmpq_mat(0, len(products))).rref()
     pivots = [next(j for j in range(len(products)) if reduced[i, j]) for i in range(rank)]
     for j in range(known, len(products)):
         if j not in pivots:

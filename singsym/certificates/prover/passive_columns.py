@@ -47,7 +47,7 @@ def mixed_rows(at: RealSet) -> dict[str, Any] | None:
     """Rows and a matrix for them after which there is a pivot, a sum of squares."""
     units = units_of(at)
     for rows, block in _blocks(at):
-        by = [*map(list, zip(*block, strict=True))] + _kernel(block, at)
+        by = [*map(list, zip(*block, strict=True)), *_kernel(block, at)]
         squares = sum((row[0] * row[0] for row in block), start=at.context.constant(0))
         form = product_of_units(squares, at, units)
         form = form or product_of_units(remainder(squares, at.equations), at, units)
@@ -57,7 +57,7 @@ def mixed_rows(at: RealSet) -> dict[str, Any] | None:
 
 
 def _power_of(f: fmpq_mpoly, form: dict[str, Any], at: RealSet) -> dict[str, Any] | None:
-    """`units` and `scale` of a polynomial that is on the set a power of a product of units, times a number."""
+    """`units` and `scale` of a polynomial that is, on the set, a number times a power of units."""
     for power in range(1, LARGEST_BLOCK):
         places = form["units"] * power
         product = unit_product(at, {"units": places})
@@ -69,7 +69,7 @@ def _power_of(f: fmpq_mpoly, form: dict[str, Any], at: RealSet) -> dict[str, Any
 
 
 def _blocks(at: RealSet) -> Iterator[tuple[tuple[int, ...], list[list[fmpq_mpoly]]]]:
-    """Rows and blocks of one column less: those outside of which some passive columns are zero, then pairs."""
+    """Rows and blocks of one column less, outside of which some passive columns are zero."""
     passive = [j for j, role in enumerate(at.roles) if role == "passive"]
     entries = {j: [row[j] for row in at.matrix] for j in passive}
     supports = {j: {i for i, e in enumerate(column) if e} for j, column in entries.items()}
@@ -80,9 +80,6 @@ def _blocks(at: RealSet) -> Iterator[tuple[tuple[int, ...], list[list[fmpq_mpoly
             block = [[entries[j][i] for j in columns] for i in rows]
             if len(rows) == size + 1 and sum(len(e) for row in block for e in row) <= MOST_TERMS:
                 yield rows, block
-    for j in passive:
-        for rows in combinations(sorted(supports[j]), 2):
-            yield rows, [[entries[j][i]] for i in rows]
 
 
 def _kernel(block: Sequence[Sequence[fmpq_mpoly]], at: RealSet) -> list[list[fmpq_mpoly]]:

@@ -18,20 +18,19 @@ from flint import fmpq_mpoly
 from singsym.certificates.checker.curves import components
 from singsym.certificates.checker.polynomials import Rejected, determinant, remainder
 from singsym.certificates.checker.ranks import bounds_on, possible_types
-from singsym.certificates.checker.rules import derive
 from singsym.certificates.checker.sets import RealSet, Statement
 from singsym.certificates.checker.strata import dimension_above
 from singsym.certificates.checker.table import Finding
+from singsym.certificates.prover.bases import based, basis_steps, has_zeros, is_based
 from singsym.certificates.prover.boxes import point_leaf, seems_in
 from singsym.certificates.prover.dimensions import dimension_leaf
 from singsym.certificates.prover.finite import points_leaf
 from singsym.certificates.prover.loops import all_zeros, curve_leaf
 from singsym.certificates.prover.passive_columns import mixed_rows, pivot
-from singsym.certificates.prover.traced_basis import traced_basis
 from singsym.certificates.prover.tree import Node, Tree
 from singsym.certificates.prover.unit_products import (
+    LONGEST_PRODUCT,
     cancelled,
-    MOST_TERMS,
     factors,
     open_factors,
     product_of_units,
@@ -40,14 +39,14 @@ from singsym.certificates.prover.unit_products import (
 )
 from singsym.certificates.prover.vanishing_squares import vanishing_squares
 from singsym.effort.attempts import attempt
-from singsym.effort.budget import Undecided, current
-from singsym.elimination.ideal import Ideal, intersection
+from singsym.effort.budget import Undecided
+from singsym.elimination.ideal import intersection
 from singsym.polynomials import Polynomial, Ring
 from singsym.varieties.decomposition import decompose
 
 PART, WHOLE, EMPTY, BASIS = 60.0, 600.0, 5.0, 5.0
-"""Seconds of work for one part of the configuration space, for all of it, to see that a set is empty, and for a
-basis without which there may be a way."""
+"""Seconds of work for one part of the configuration space, for all of it, to see that a set is empty, and for
+a basis without which there may be a way."""
 MOST_MINORS = 400
 
 
@@ -128,7 +127,7 @@ class _Prover:
             by = remainder(locus, node.at.equations)
             if not by or product_of_units(by, node.at, units_of(node.at)) is not None:
                 continue
-            if not _is_based(node):
+            if not is_based(node):
                 # factors of determinants as they are
                 by = locus
             split = self._split(node, by, loci[k + 1 :])
@@ -144,14 +143,14 @@ class _Prover:
         dimension = self.attempted(lambda: self._on_locus(zero, loci))
         # each component of complex zeros has at least this dimension (Krull)
         least = len(node.at.variables) - len(node.at.generators)
-        if dimension is not None and dimension < least and (node.full or _has_zeros(node.at)):
+        if dimension is not None and dimension < least and (node.full or has_zeros(node.at)):
             return replace(rest, full=True)
         return self._unless_empty(rest)
 
     def _on_locus(self, node: Node, loci: Sequence[fmpq_mpoly]) -> int | None:
         """A set with one more equation; its dimension over the complex numbers, where its basis is short."""
         node = self._based_if_short(node)
-        if not _is_based(node):
+        if not is_based(node):
             self.take_apart(node, loci)
             return None
         dimension = dimension_above(node.at)
@@ -173,9 +172,9 @@ class _Prover:
 
     def _based(self, node: Node) -> Node:
         """The set with a Groebner basis among its equations."""
-        if _is_based(node):
+        if is_based(node):
             return node
-        (found,) = self.tree.apply(node, "derive", **_basis_steps(node.at, node.based))
+        (found,) = self.tree.apply(node, "derive", **basis_steps(node.at, node.based))
         return replace(found, based=len(found.at.equations), full=node.full)
 
     def _based_if_short(self, node: Node) -> Node:
@@ -194,13 +193,13 @@ class _Prover:
                 self.tree.leaf(node, "empty", equation=place)
                 return None
         if seems_in(at, self.hints.points):
-            return replace(node, full=_is_based(node))
+            return replace(node, full=is_based(node))
         with attempt("that a set is empty", EMPTY):
             if (found := cancelled(at.context.constant(1), at)) is not None:
                 (node,) = self.tree.apply(node, "cancel", polynomial="1", **found)
                 self.tree.leaf(node, "empty", equation=len(node.at.equations) - 1)
                 return None
-        return replace(node, full=_is_based(node))
+        return replace(node, full=is_based(node))
 
     # -- ranks ---------------------------------------------------------------------------------------
 
@@ -247,39 +246,30 @@ class _Prover:
         self.tree.leaf(node, "ranks", **data)
 
     def _ranked_without_basis(self, node: Node) -> bool:
-        """A leaf where determinants of L_I and L_O decide the types as they are, or the set split on factors.
+        """A leaf where the determinants of L_I and L_O, as they are, decide the types; whether it is one.
 
-        False where there is nothing of this kind.
+        Where no loci are known the set is split on their factors instead.
         """
-        if _is_based(node):
-            return False
-        at = node.at
+        at, evidence = node.at, dict[str, Any]()
         free = replace(at, equations=())
-        evidence: dict[str, Any] = {}
+        units = units_of(free)
         for name in ("L_I", "L_O"):
             rows = at.part(at.matrix, name)
-            if not rows or len(rows) != len(rows[0]):
+            if is_based(node) or not rows or len(rows) != len(rows[0]):
                 return False
-            every, units = list(range(len(rows))), units_of(free)
-            f = determinant(rows, [])
-            divided = ((place, divmod(f, equation)) for place, equation in enumerate(at.equations))
-            multiple = next(((place, quotient) for place, (quotient, rest) in divided if f and not rest), None)
-            if multiple is not None:
-                shown: dict[str, Any] = {"below": len(rows), "of": multiple[0], "by": str(multiple[1])}
-            elif f and (form := product_of_units(f, free, units)) is not None:
-                shown = {"rows": every, "columns": every, **form}
-            elif f and len(f) <= MOST_TERMS and (left := factors(f, units)):
-                rest = self._split(node, left[0], ())
-                if rest is not None and not self._ranked_without_basis(rest):
-                    self.attempted(lambda: self._ranked(rest))
+            f, every = determinant(rows, []), list(range(len(rows)))
+            if (form := product_of_units(f, free, units)) is not None:
+                evidence[name] = [{"rows": every, "columns": every, "divisors": [], **form}]
+            elif f and (multiple := self._multiple(f, at)) is not None:
+                evidence[name] = [{"below": len(rows), "divisors": [], **multiple}]
+            elif f and not self.hints.loci and len(f) <= LONGEST_PRODUCT:
+                rest = self._split(node, factors(f, units)[0], ())
+                if rest is not None:
+                    self.take_apart(rest, ())
                 return True
-            else:
-                return False
-            evidence[name] = [shown | {"divisors": []}]
-        types = self._types(at, evidence)
-        if len(types) != 1:
-            return False
         data: dict[str, Any] = {"ranks": evidence}
+        if len(types := self._types(at, evidence)) != 1:
+            return False
         if types != {""}:
             point = point_leaf(at, self.hints.points)
             bound = None if point is None else dimension_leaf(at, point[1])
@@ -288,6 +278,15 @@ class _Prover:
             data |= {"point": point[0], "dimension": bound}
         self.tree.leaf(node, "ranks", **data)
         return True
+
+    def _multiple(self, f: fmpq_mpoly, at: RealSet) -> dict[str, Any] | None:
+        """`of` and `by` of a polynomial that is a multiple of an equation more than the statement has."""
+        for place, equation in enumerate(at.equations):
+            if equation not in self.tree.about.whole.equations:
+                quotient, rest = divmod(f, equation)
+                if not rest:
+                    return {"of": place, "by": str(quotient)}
+        return None
 
     def _shown(self, at: RealSet, types: frozenset[str]) -> dict[str, Any]:
         """`point` and `curve` of a set, as far as they are found."""
@@ -379,39 +378,6 @@ class _Prover:
             if not exact:
                 return {"below": size}
         return {"below": 1}
-
-
-def _is_based(node: Node) -> bool:
-    """Whether the equations of a set hold a Groebner basis of their ideal."""
-    return node.based == len(node.at.equations)
-
-
-def _basis_steps(at: RealSet, known: int) -> dict[str, Any]:
-    """The rule `derive` to a Groebner basis, and the equations there are where they are not all of it.
-
-    known: so many of the first equations may hold a basis of their own ideal.
-    """
-    own = Ring(at.variables)
-    ideal = Ideal(own, [Polynomial(own, e) for e in at.equations if e])
-    target = [tuple(map(int, m)) for m in ideal.leading_monomials().value]
-    found = traced_basis(at.equations, current(), target, known)
-    if {*target} - {tuple(map(int, e.monomial(0))) for e in found.basis}:
-        found = traced_basis(at.equations, current(), target)
-    is_unit = bool(found.basis) and found.basis[0].is_constant()
-    kept = [] if is_unit else [k for k in range(len(at.equations)) if k not in found.equations]
-    return {"steps": found.steps, "equations": [*kept, *found.equations]}
-
-
-def _has_zeros(at: RealSet) -> bool:
-    """Whether the equations of a set that excludes nothing have complex zeros."""
-    own = Ring(at.variables)
-    return not at.units and Ideal(own, [Polynomial(own, e) for e in at.equations if e]).dimension.value >= 0
-
-
-def based(at: RealSet, known: int = 0) -> tuple[RealSet, dict[str, Any]]:
-    """The set with a Groebner basis, and the steps to it; known: as `_basis_steps` has it."""
-    steps = _basis_steps(at, known)
-    return derive(at, steps)[0], steps
 
 
 def _questions(at: RealSet, about: Statement) -> Iterator[tuple[str, bool]]:

@@ -140,4 +140,3 @@ def open_factors(
     """Factors of a minor of which it is not known that they vanish nowhere on the set; fewest terms first."""
     ways = [factors(f, units) for f in spellings(rows, at, known) if len(f) <= MOST_TERMS]
     return min(ways, key=lambda own: (max(map(len, own), default=0), len(own)), default=[])
-

@@ -1,7 +1,7 @@
 """Squares that add up to zero on a set, as the rule `squares` has them.
 
-Source: a barrier method for linear matrix inequalities (Boyd, Vandenberghe, *Convex Optimization*, 11.4); what it
-finds in floating point is rounded, and proves nothing before it is decomposed into squares exactly.
+Source: a barrier method for linear matrix inequalities (Boyd, Vandenberghe, *Convex Optimization*, 11.4);
+what it finds in floating point is rounded, and proves nothing before it is decomposed into squares exactly.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def vanishing_squares(at: RealSet) -> list[list[str]]:
 
 
 def positive_combination(polynomials: Sequence[Polynomial]) -> Polynomial | None:
-    """A combination with rational coefficients that is a sum of squares and no negative number, if one is seen.
+    """A rational combination that is a sum of squares and a number that is not negative, if one is seen.
 
     >>> x, y = Ring(("x", "y")).gens
     >>> positive_combination([x**2 - y, y**2 + x + 1])
@@ -87,7 +87,7 @@ def _gram(f: Polynomial) -> Floats:
 
 
 def _weights(forms: Floats) -> Floats:
-    """Coefficients of a sum of symmetric matrices with a least eigenvalue as large as can be, near zero or above.
+    """Coefficients of a sum of symmetric matrices with a least eigenvalue as large as can be, or positive.
 
     The sum plus s times the identity is kept positive definite, the coefficients in a ball, and s is lowered.
     """
@@ -111,7 +111,8 @@ def _weights(forms: Floats) -> Floats:
             at = at + step
         if at[-1] < 0:
             break
-    return at[:-1] / norms
+    weights: Floats = at[:-1] / norms
+    return weights
 
 
 def _is_inside(at: Floats, directions: Floats, ball: Floats) -> bool:

@@ -113,7 +113,7 @@ def _is_along(curve: Finding, place: int, piece: Piece) -> bool:
 
 
 def _hints(result: Classification, found: Conditions) -> Hints:
-    """The loci of (4) and (5), their products with multiplicities, configurations, and a reduction's order."""
+    """The loci of (4) and (5), their products, known configurations, and the order of a reduction."""
     names = result.equation.space.ring.names
     loci: dict[Polynomial, None] = {}
     products = []
@@ -131,5 +131,5 @@ def _hints(result: Classification, found: Conditions) -> Hints:
     curves = any(row.components is not None and row.dimension == 1 for row in result.classes)
     places = {column.label: j for j, column in enumerate(result.equation.columns)}
     columns = tuple(places[label] for step in reduce(result.equation).record for label in step.columns)
-    values = [tuple(p.value for p in group) for group in (loci, products)]
-    return Hints(*values, tuple(points), curves, columns)
+    factors, determinants = (tuple(p.value for p in group) for group in (loci, products))
+    return Hints(factors, determinants, tuple(points), curves, columns)
