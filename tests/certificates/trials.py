@@ -20,7 +20,7 @@ from tests.certificates.damage import Damage, damaged
 
 NAMES = (
     *("fourbar", "slider-crank", "2r", "orthogonal-3r"),
-    *("wrist-offset", "parallelogram", "pantograph", "pentagon"),
+    *("wrist-offset", "parallelogram", "pantograph", "pentagon", "3rpr"),
 )
 """Mechanisms of the library with small certificates, which use each rule."""
 OUTCOMES = ("rejected", "weaker", "same", "FALSE")

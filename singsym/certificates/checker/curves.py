@@ -20,7 +20,7 @@ from singsym.certificates.checker.balls import Compiled, is_off_zero, preconditi
 from singsym.certificates.checker.points import chart_of
 from singsym.certificates.checker.polynomials import Rejected, determinant, polynomial, rational, remainder
 from singsym.certificates.checker.rules import Line, derive
-from singsym.certificates.checker.sets import RealSet, chosen, listed, named, power
+from singsym.certificates.checker.sets import MOST, RealSet, chosen, listed, named, whole_number
 from singsym.certificates.checker.strata import implied
 
 BITS, ROOT_BITS = 90, 512
@@ -65,8 +65,7 @@ def components(at: RealSet, data: Line) -> Loops:
 
 def _has_signs(at: RealSet, boxes: Boxes) -> bool:
     """Whether inequalities that vanish nowhere on a loop hold at points of it; raises `Rejected`."""
-    values = [[Compiled(f).at(box) for box in boxes] for f in at.inequalities]
-    signs = [{value > 0 for value in own if not value.contains(0)} for own in values]
+    signs = [{v > 0 for v in map(Compiled(f).at, boxes) if not v.contains(0)} for f in at.inequalities]
     if any(len(own) != 1 for own in signs):
         raise Rejected("signs: that of an inequality is not seen on a loop")
     return {False} not in signs
@@ -228,7 +227,7 @@ def _critical_points(at: RealSet, own: Sequence[fmpq_mpoly], local: fmpq_mpoly, 
     found: Boxes = []
     for entry in listed(data, "factors", dict):
         part = polynomial(entry.get("polynomial", ""), at.context)
-        product = product * part ** power(entry, "multiplicity")
+        product = product * part ** whole_number(entry, "multiplicity", 1, MOST)
         found += real_points(at.within([part]), entry)
     if not product or remainder(determinant(rows, at.equations) * local - product, at.equations):
         raise Rejected("critical: the determinant is not seen to be this product")
@@ -250,11 +249,9 @@ def real_points(at: RealSet, line: Line) -> Boxes:
 
 def meetings(one: Curve, two: Curve, line: Line) -> list[tuple[int, int]]:
     """Which loops of two curves have a point in common, by all points of both sets; raises `Rejected`."""
-    found = []
-    for box in real_points(one[0].within(two[0].equations), line):
-        if not any(Compiled(f).at(box) < 0 for f in one[0].inequalities):
-            found.append((_loop_of(box, one[1]), _loop_of(box, two[1])))
-    return found
+    boxes = real_points(one[0].within(two[0].equations), line)
+    kept = [box for box in boxes if not any(Compiled(f).at(box) < 0 for f in one[0].inequalities)]
+    return [(_loop_of(box, one[1]), _loop_of(box, two[1])) for box in kept]
 
 
 def _loop_of(box: Sequence[arb], loops: Loops) -> int:

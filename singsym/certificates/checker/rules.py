@@ -8,8 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from functools import reduce
-from operator import add, mul
 from typing import Any
 
 from flint import fmpq_mpoly
@@ -23,7 +21,7 @@ from singsym.certificates.checker.polynomials import (
     remainder,
     s_polynomial,
 )
-from singsym.certificates.checker.sets import RealSet, chosen, listed, power, whole_number
+from singsym.certificates.checker.sets import MOST, RealSet, chosen, listed, whole_number
 
 Line = Mapping[str, Any]
 
@@ -79,7 +77,7 @@ def cancel(at: RealSet, line: Line) -> tuple[RealSet, ...]:
     """One more equation, of which a power times units is in the ideal of those there are."""
     f = polynomial(line.get("polynomial", ""), at.context)
     product, units = at.context.constant(1), chosen(at.units, listed(line, "units"), "unit")
-    for factor in (*units, *[f] * power(line)):
+    for factor in (*units, *[f] * whole_number(line, "power", 1, MOST)):
         product = remainder(product * factor, at.equations)
     if product:
         raise Rejected("the product is not seen to be in the ideal")
@@ -115,7 +113,8 @@ def rows(at: RealSet, line: Line) -> tuple[RealSet, ...]:
 
 
 def _combined(weights: Sequence[fmpq_mpoly], rows: Sequence[Sequence[fmpq_mpoly]]) -> tuple[fmpq_mpoly, ...]:
-    return tuple(reduce(add, map(mul, weights, column)) for column in zip(*rows, strict=True))
+    columns = zip(*rows, strict=True)
+    return tuple(sum((w * e for w, e in zip(weights, c, strict=True)), start=c[0] * 0) for c in columns)
 
 
 def pivot(at: RealSet, line: Line) -> tuple[RealSet, ...]:

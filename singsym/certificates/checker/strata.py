@@ -29,9 +29,8 @@ SCALE = "scale__"
 
 def dimension_above(at: RealSet) -> int:
     """A bound of the dimension, by the leading monomials of the equations; -1 where one is constant."""
-    supports = sorted(
-        {frozenset(i for i, e in enumerate(f.monomial(0)) if e) for f in at.equations if f}, key=len
-    )
+    leading = (f.monomial(0) for f in at.equations if f)
+    supports = sorted({frozenset(i for i, e in enumerate(m) if e) for m in leading}, key=len)
 
     @cache
     def largest(names: frozenset[int]) -> int:
@@ -45,9 +44,8 @@ def dimension_above(at: RealSet) -> int:
 def dimension_within(at: RealSet, data: Mapping[str, Any]) -> int:
     """A bound of the dimension, one less than the number of `forms`; raises `Rejected`.
 
-    forms: linear polynomials; steps, equations: as of `derive`, from these and the equations, all made
-    homogeneous by one more variable, to polynomials that are led by a power of each variable.  So there is no
-    common zero in projective space, and the closure of a larger set would meet all forms there.
+    steps, equations: as of `derive`, from linear forms and the equations made homogeneous, to polynomials led
+    by a power of each variable: no common zero in projective space, where a larger set would meet all.
     """
     forms = [polynomial(text, at.context) for text in listed(data, "forms", str)]
     if any(f.total_degree() != 1 for f in forms):
@@ -69,10 +67,8 @@ def homogeneous(f: fmpq_mpoly, larger: fmpq_mpoly_ctx) -> fmpq_mpoly:
 def dimension_below(at: RealSet, point: Mapping[str, Any]) -> int:
     """That of the set near a point of it, of which a box is proven to hold one; raises `Rejected`.
 
-    fixed: variables with their rational values; centre: the others with numbers near theirs; radius: of the
-    box.
-    square: the places of as many equations.  The others follow from these near the point: by `implied`, see
-    `implied`.
+    fixed: variables with their rational values; centre: the others with numbers near; radius: of the box.
+    square: the places of as many equations, from which the others follow near the point, see `implied`.
     Where the box has a point, the gradients of the square system are independent, so that its zeros are a
     manifold there, and the inequalities are strict.
     """
