@@ -134,7 +134,7 @@ def unproven(claim: Row, proven: Row) -> list[str]:
     )[: 1 if claim.occurs is False else None]:
         a, b = getattr(claim, key), getattr(proven, key)
         if None not in (a, b) and a != b:
-            raise Rejected(f"claims: {claim}; proven is {proven}")
+            raise Rejected(f"claims: {word} of {claim.types} is not {a}; proven is {b}")
         if a is None and expected:
             found.append(f"{word} is not claimed")
         elif a is not None and b is None:

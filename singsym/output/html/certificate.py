@@ -164,6 +164,12 @@ def _squares(line: Line) -> str:
     return f"{zero} are zero, as a sum of their squares is in the ideal: {_sets(line['into'])}"
 
 
+def _rows(line: Line) -> str:
+    places = ", ".join(str(k + 1) for k in line["rows"])
+    what = f"rows {places} of L are combined by a matrix with a determinant that vanishes nowhere"
+    return f"{what}: {_sets(line['into'])}"
+
+
 def _pivot(line: Line) -> str:
     what = f"row {line['row'] + 1} and column {line['column'] + 1} of L go by a pivot that vanishes nowhere"
     return f"{what}: {_sets(line['into'])}"
@@ -174,6 +180,7 @@ _WORDS: dict[str, Callable[[Line], str]] = {
     "derive": _derive,
     "cancel": _cancel,
     "pivot": _pivot,
+    "rows": _rows,
     "squares": _squares,
     "empty": lambda line: "no points, as one of its equations is a number that is not zero",
     "points": lambda line: "finitely many points, all known",
