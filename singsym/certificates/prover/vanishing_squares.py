@@ -24,6 +24,8 @@ Floats = NDArray[numpy.float64]
 
 MOST = 24
 """So many polynomials, and as many variables, are combined at most."""
+MOST_BITS = 300
+"""Longer numerators and denominators are not put into floating point."""
 ROUNDS, STEPS = 28, 6
 """The weight of the bound is doubled so often, and Newton's method has so many steps each time."""
 LEAST = 1e-4
@@ -56,12 +58,16 @@ def positive_combination(polynomials: Sequence[Polynomial]) -> Polynomial | None
     >>> positive_combination([x**2 + y**2 - 4, x**2 + y**2 - 6 * x + 8])
     3/2*x^2 + 3/2*y^2 - 6*x + 6
     >>> positive_combination([x**2 - y, y**2 + x])
+    >>> positive_combination([x**2 + 1 - 10**400 * y])
     """
-    own = [f for f in polynomials if f and f.total_degree <= 2]
+    own = [f for f in polynomials if f and f.total_degree <= 2 and _is_short(f)]
     if not own or max(len(own), len(own[0].ring.names)) > MOST:
         return None
-    weights = _weights(numpy.array([_gram(f) for f in own]))
-    if numpy.abs(weights).max() < LEAST:
+    try:
+        weights = _weights(numpy.array([_gram(f) for f in own]))
+    except numpy.linalg.LinAlgError:
+        return None
+    if not numpy.abs(weights).max() >= LEAST:
         return None
     weights = weights / numpy.abs(weights).max()
     for most in DENOMINATORS:
@@ -72,6 +78,10 @@ def positive_combination(polynomials: Sequence[Polynomial]) -> Polynomial | None
         if found is not None and found[0] > 0 and found[2] <= 0:
             return total
     return None
+
+
+def _is_short(f: Polynomial) -> bool:
+    return all(max(c.p.bit_length(), c.q.bit_length()) <= MOST_BITS for _, c in f.terms())
 
 
 def _gram(f: Polynomial) -> Floats:
@@ -106,6 +116,8 @@ def _weights(forms: Floats) -> Floats:
             curvature = numpy.einsum("kij,lji->kl", moved, moved)
             curvature += 2 * ball / left + 4 * numpy.outer(ball @ at, ball @ at) / left**2
             step = -numpy.linalg.lstsq(curvature, slope, rcond=None)[0]
+            if not numpy.isfinite(step).all():
+                raise numpy.linalg.LinAlgError("no step of Newton's method")
             while not _is_inside(at + step, directions, ball):
                 step = step / 2
             at = at + step
