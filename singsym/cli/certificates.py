@@ -33,6 +33,7 @@ def write_certificate(result: Classification, path: str) -> None:
 def run_verify(chosen: argparse.Namespace) -> int:
     """`singsym verify FILE [--mechanism MECHANISM]`: the table that a certificate proves."""
     from singsym.certificates.checker.verification import verify
+    from singsym.certificates.wording import TRUSTED
 
     try:
         found = verify(chosen.file)
@@ -40,7 +41,7 @@ def run_verify(chosen: argparse.Namespace) -> int:
         raise UserError(f"{chosen.file}: {error.strerror}") from None
     except ValueError as error:
         raise UserError(f"{chosen.file} is rejected: {error}") from None
-    trusted = list(found.trusted)
+    trusted = list(TRUSTED)
     if chosen.mechanism:
         _check_statement(found, chosen)
         trusted[0] = "that singsym derives L, the loop equations and the conditions rightly"
@@ -65,7 +66,9 @@ def _check_statement(found: Verification, chosen: argparse.Namespace) -> None:
 
 
 def _page(found: Verification, trusted: list[str]) -> Iterator[str]:
-    occurring = [row.text() for row in found.proven if row.occurs]
+    from singsym.certificates.wording import row_text
+
+    occurring = [row_text(row) for row in found.proven if row.occurs]
     empty = [row.types for row in found.proven if row.occurs is False]
     open_rows = [row.types for row in found.proven if row.occurs is None]
     word = "proven in full" if found.complete else "not proven in full"

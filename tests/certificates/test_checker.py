@@ -19,11 +19,11 @@ from singsym.certificates.checker.curves import Tubes, components
 from singsym.certificates.checker.points import PRIME, pivots, points
 from singsym.certificates.checker.polynomials import Rejected, polynomial, ring
 from singsym.certificates.checker.ranks import bounds_on, possible_types
-from singsym.certificates.checker.rules import cancel, derive, pivot, squares
+from singsym.certificates.checker.rules import cancel, derive, pivot, rows, squares
 from singsym.certificates.checker.sets import RealSet, Statement, statement
-from singsym.certificates.checker.strata import dimension_above, dimension_below
+from singsym.certificates.checker.strata import dimension_above, dimension_below, dimension_within
+from singsym.certificates.prover.bases import based
 from singsym.certificates.prover.loops import curve_leaf
-from singsym.certificates.prover.proof import based
 from singsym.certificates.prover.writing import Certificate
 from singsym.classes.taxonomy.types import feasible_classes
 
@@ -136,6 +136,49 @@ def test_a_pivot_is_passive_and_a_unit() -> None:
             pivot(at, wrong)
 
 
+def test_rows_are_combined_by_an_invertible_matrix() -> None:
+    """(x, y) over the passive column (x, y) is x^2 + y^2, and (-y, x) is 0; the determinant is x^2 + y^2.
+
+    Off the origin that is a unit, on the unit circle it is 1; elsewhere neither.
+    """
+    matrix, roles = [["1", "0", "x"], ["0", "1", "y"]], ["output", "input", "passive"]
+    line = {"rows": [0, 1], "by": [["x", "y"], ["-y", "x"]], "units": [0]}
+    off = about([], matrix, roles, exclusions=[["x", "y"]]).whole
+    (turned,) = rows(off, line)
+    assert [[str(e) for e in row] for row in turned.matrix] == [["x", "y", "x^2 + y^2"], ["-y", "x", "0"]]
+    assert turned.eliminated == 0
+    circle = about(["x^2 + y^2 - 1"], matrix, roles).whole
+    assert rows(circle, line | {"units": []})[0].matrix == turned.matrix
+    for wrong in (
+        {"units": []},
+        {"by": [["x", "y"], ["x", "y"]]},
+        {"by": [["x", "y"]]},
+        {"by": [["x"], ["y"]]},
+        {"rows": [0, 0]},
+        {"rows": [0, 2]},
+        {"rows": [], "by": []},
+    ):
+        with pytest.raises(Rejected):
+            rows(off, line | wrong)
+
+
+def test_a_minor_is_a_multiple_of_one_equation_modulo_others() -> None:
+    """On x^2 = y, L_O = x^4 + x y^2 = y^2 (x + 1) modulo the first equation; y = 0 is the second.
+
+    Modulo the first it is no multiple of x + 1, and not zero by itself.
+    """
+    there = about(["x^2 - y", "y"], [["1", "x^4 + x*y^2"]], ["output", "input"])
+    one = {"L_I": [{"rows": [0], "columns": [0], "units": []}]}
+    item = {"below": 1, "divisors": [0], "of": 1, "by": "x*y + y"}
+    found = bounds_on(there.whole, there, one | {"L_O": [item]})
+    assert possible_types(found, 1) == {"RI, IO"}
+    for wrong in ({"by": "x + 1"}, {"of": 0}, {"of": 2}, {"divisors": []}, {"divisors": [2]}):
+        with pytest.raises(Rejected):
+            bounds_on(there.whole, there, one | {"L_O": [item | wrong]})
+    with pytest.raises(Rejected):
+        bounds_on(there.whole, there, one | {"L_O": [{"below": 1, "divisors": [0]}]})
+
+
 def test_ranks_need_a_unit_and_vanishing_borders() -> None:
     evidence = {
         "L_O": [{"rows": [0], "columns": [0], "units": [0]}],
@@ -149,6 +192,37 @@ def test_ranks_need_a_unit_and_vanishing_borders() -> None:
     for wrong in ({"L_O": [{"below": 1}]}, {"L_O": [{"rows": [0], "columns": [0], "units": []}]}):
         with pytest.raises(Rejected):
             bounds_on(there.whole, there, wrong)
+
+
+def test_a_curve_misses_two_lines_of_the_projective_plane() -> None:
+    """x = y and x = 2 y + 1 meet in (-1, -1): x y = 1 holds there, x y = 2 does not.
+
+    x = 1 and x = 2 meet the hyperbola at infinity, in (0 : 1 : 0); one form does not miss it at all.
+    """
+    hyperbola = whole("x*y - 1")
+    line = {"forms": ["x - y", "x - 2*y - 1"], "steps": [], "equations": [0, 1, 2]}
+    with pytest.raises(Rejected, match="power"):
+        dimension_within(hyperbola, line)
+    assert dimension_within(whole("x*y - 2"), SECANT) == 1
+    for wrong in (
+        {"forms": ["x - y"], "equations": [0, 1]},
+        {"forms": ["x - 1", "x - 2"]},
+        {"forms": ["x - y", "1"]},
+        {"forms": ["x - y", "x^2 - 1"]},
+        {"equations": [0, 1, 2]},
+    ):
+        with pytest.raises(Rejected):
+            dimension_within(whole("x*y - 2"), SECANT | wrong)
+    with pytest.raises(Rejected, match="power"):
+        dimension_within(hyperbola, SECANT)
+
+
+SECANT = {
+    "forms": ["x - y", "x - 2*y - 1"],
+    "steps": [[[2], [1]], [[0], [1, 3]]],
+    "equations": [0, 1, 2, 3, 4],
+}
+"""With the scale z: y + z of the second form by the first, and x y - 2 z^2 by these is -z^2."""
 
 
 CIRCLE = {"form": "y", "minimal": ["-3/4", "0", "1"], "power": 1}

@@ -15,6 +15,7 @@ import pytest
 from singsym.certificates.checker.rules import RULES
 from singsym.certificates.checker.sets import statement
 from singsym.certificates.checker.verification import FORMAT, LEAVES, all_types, verify
+from singsym.certificates.prover import proof
 from singsym.certificates.prover.proof import Hints, prove
 from singsym.certificates.prover.writing import Certificate
 from tests.certificates.damage import KINDS, damaged
@@ -47,6 +48,23 @@ def test_a_damaged_curve_within_inequalities(positive: list[str], tmp_path: Path
     assert verify(whole.write(tmp_path / "whole")).complete
     assert any("signs" in line.get("curve", {}) for line in lines)
     for trial in trials(whole, runs(60), draw("damage", *positive), tmp_path):
+        assert trial.outcome != "FALSE", (trial.what, trial.damage.kind, trial.damage.field)
+
+
+def test_a_damaged_dimension(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """T = x y A on the unit sphere: two circles, and regular off these; without a basis by linear forms."""
+    monkeypatch.setattr(proof, "BASIS", 0.0)
+    about = data(["x", "y", "z"], "x^2 + y^2 + z^2 - 1") | {"L": [["1", "x*y"]]}
+    claims = [
+        {"types": types, "occurs": types == "RI, IO"} | ({"dimension": 1} if types == "RI, IO" else {})
+        for types in all_types(statement(about))
+    ]
+    lines = prove(statement(about), Hints()).lines
+    whole = Certificate(({"format": FORMAT, "name": "own", "claims": claims}, about, *lines))
+    assert verify(whole.write(tmp_path / "whole")).complete
+    assert all("dimension" in line for line in lines if "point" in line)
+    assert any("of" in item for line in lines for item in line.get("ranks", {}).get("L_O", ()))
+    for trial in trials(whole, runs(60), draw("damage", "dimension"), tmp_path):
         assert trial.outcome != "FALSE", (trial.what, trial.damage.kind, trial.damage.field)
 
 

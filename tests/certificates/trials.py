@@ -15,11 +15,12 @@ from singsym.certificates.checker.polynomials import Rejected
 from singsym.certificates.checker.table import Row
 from singsym.certificates.checker.verification import verify
 from singsym.certificates.prover.writing import Certificate
+from singsym.certificates.wording import row_text
 from tests.certificates.damage import Damage, damaged
 
 NAMES = (
     *("fourbar", "slider-crank", "2r", "orthogonal-3r"),
-    *("wrist-offset", "parallelogram", "pantograph", "pentagon"),
+    *("wrist-offset", "parallelogram", "pantograph", "pentagon", "3rpr"),
 )
 """Mechanisms of the library with small certificates, which use each rule."""
 OUTCOMES = ("rejected", "weaker", "same", "FALSE")
@@ -67,10 +68,10 @@ def _trial(damage: Damage, true: Sequence[Row], path: Path) -> Trial:
     except Exception as error:  # the checker must not fail, whatever it reads
         return Trial(damage, "FALSE", repr(error))
     rows = {row.types: row for row in true}
-    wrong = [row.text() for row in found.proven if not says_no_more(row, rows[row.types])]
+    wrong = [row_text(row) for row in found.proven if not says_no_more(row, rows[row.types])]
     if found.complete:
         claims = [claim for claim in found.claimed if claim.occurs]
-        wrong += [f"claimed {c.text()}" for c in claims if not says_no_more(c, rows[c.types])]
+        wrong += [f"claimed {row_text(c)}" for c in claims if not says_no_more(c, rows[c.types])]
     if wrong:
         return Trial(damage, "FALSE", "; ".join(wrong))
     return Trial(damage, "same" if found.complete else "weaker")

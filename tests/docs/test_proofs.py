@@ -110,7 +110,7 @@ CERTIFIED = (
 
 def test_each_claim_of_a_table_names_its_rules_or_has_no_leaf() -> None:
     """The rules are those of the checker, with the fields of its leaf `ranks`; each of them is named."""
-    fields = {"point", "curve"}
+    fields = {"point", "curve", "dimension"}
     assert all(f'line, "{field}"' in inspect.getsource(verification) for field in fields)
     named = set[str]()
     for section in CERTIFIED:

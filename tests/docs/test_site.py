@@ -68,7 +68,7 @@ SAID = {
     "howto/certificates": [
         "feeder: the table is proven in full",
         "RI, IO: occurs, dimension 0, 4 points",
-        "proven is RI, IO: occurs",
+        "number of points of RI, IO is not 5; proven is 4",
     ],
     "howto/cluster": ["Locks (IO", "every other class is proven empty"],
     "howto/latex": ["\\begin", "\\documentclass", "lift.pdf"],

@@ -31,6 +31,7 @@ QUICK = (
     "double-rocker-pin",
     "drag-link-press",
     "five-bar",
+    "five-bar-coupled",
     "fourbar",
     "oldham",
     "orthogonal-3r",
@@ -60,6 +61,7 @@ QUICK = (
     "spherical-fourbar",
     "stanford",
     "stephenson-six-bar",
+    "stewart-gough-planar",
     "toggle-press",
     "ur5",
     "watt-one-six-bar",
@@ -68,7 +70,7 @@ QUICK = (
     "wrist-offset",
 )
 """Those whose certificate takes a few seconds at most."""
-SLOW = ("klann-leg", "linear-delta")
+SLOW = ("eight-bar", "klann-leg", "linear-delta", "pair-11", "stewart-gough")
 """These take tens of seconds."""
 
 

@@ -14,13 +14,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from flint import arb, arb_mat, arb_poly, ctx, fmpq, fmpq_mat, fmpq_mpoly
+from flint import arb, arb_mat, arb_poly, ctx, fmpq, fmpq_mpoly
 
 from singsym.certificates.checker.balls import Compiled, is_off_zero, preconditioned
 from singsym.certificates.checker.points import chart_of
 from singsym.certificates.checker.polynomials import Rejected, determinant, polynomial, rational, remainder
 from singsym.certificates.checker.rules import Line, derive
-from singsym.certificates.checker.sets import RealSet, chosen, listed, named, power
+from singsym.certificates.checker.sets import MOST, RealSet, chosen, listed, named, whole_number
 from singsym.certificates.checker.strata import implied
 
 BITS, ROOT_BITS = 90, 512
@@ -65,8 +65,7 @@ def components(at: RealSet, data: Line) -> Loops:
 
 def _has_signs(at: RealSet, boxes: Boxes) -> bool:
     """Whether inequalities that vanish nowhere on a loop hold at points of it; raises `Rejected`."""
-    values = [[Compiled(f).at(box) for box in boxes] for f in at.inequalities]
-    signs = [{value > 0 for value in own if not value.contains(0)} for own in values]
+    signs = [{v > 0 for v in map(Compiled(f).at, boxes) if not v.contains(0)} for f in at.inequalities]
     if any(len(own) != 1 for own in signs):
         raise Rejected("signs: that of an inequality is not seen on a loop")
     return {False} not in signs
@@ -199,17 +198,12 @@ def _check_bounded(at: RealSet, steps: Sequence[Any]) -> None:
             raise Rejected(f"bounded: expected [generator, names], got {str(step)[:80]}")
         f = chosen(at.generators, [step[0]], "generator")[0]
         own = [at.variables.index(name) for name in step[1]]
-        form = [[fmpq(0)] * len(own) for _ in own]
-        for exponents, coefficient in f.terms():
-            inside = [k for k, i in enumerate(own) for _ in range(int(exponents[i]))]
-            others = {i for i, e in enumerate(exponents) if e and i not in own}
-            if len(inside) > 2 or others - known or (len(inside) == 2 and others):
-                raise Rejected(f"bounded: generator {step[0]} is not of this kind")
-            if len(inside) == 2:
-                i, j = inside
-                form[i][j] += coefficient / 2
-                form[j][i] += coefficient / 2
-        minors = [fmpq_mat([row[:k] for row in form[:k]]).det() for k in range(1, len(own) + 1)]
+        form = [[f.derivative(i).derivative(j) for j in own] for i in own]
+        others = {i for i, degree in enumerate(f.degrees()) if degree and i not in own}
+        if others - known or not all(e.is_constant() for row in form for e in row):
+            raise Rejected(f"bounded: generator {step[0]} is not of this kind")
+        sizes = range(1, len(own) + 1)
+        minors = [determinant([row[:k] for row in form[:k]], []).leading_coefficient() for k in sizes]
         sign = 1 if minors and minors[0] > 0 else -1
         if not all(m * sign**k > 0 for k, m in enumerate(minors, 1)):
             raise Rejected(f"bounded: the form of generator {step[0]} is not definite")
@@ -233,7 +227,7 @@ def _critical_points(at: RealSet, own: Sequence[fmpq_mpoly], local: fmpq_mpoly, 
     found: Boxes = []
     for entry in listed(data, "factors", dict):
         part = polynomial(entry.get("polynomial", ""), at.context)
-        product = product * part ** power(entry, "multiplicity")
+        product = product * part ** whole_number(entry, "multiplicity", 1, MOST)
         found += real_points(at.within([part]), entry)
     if not product or remainder(determinant(rows, at.equations) * local - product, at.equations):
         raise Rejected("critical: the determinant is not seen to be this product")
@@ -255,11 +249,9 @@ def real_points(at: RealSet, line: Line) -> Boxes:
 
 def meetings(one: Curve, two: Curve, line: Line) -> list[tuple[int, int]]:
     """Which loops of two curves have a point in common, by all points of both sets; raises `Rejected`."""
-    found = []
-    for box in real_points(one[0].within(two[0].equations), line):
-        if not any(Compiled(f).at(box) < 0 for f in one[0].inequalities):
-            found.append((_loop_of(box, one[1]), _loop_of(box, two[1])))
-    return found
+    boxes = real_points(one[0].within(two[0].equations), line)
+    kept = [box for box in boxes if not any(Compiled(f).at(box) < 0 for f in one[0].inequalities)]
+    return [(_loop_of(box, one[1]), _loop_of(box, two[1])) for box in kept]
 
 
 def _loop_of(box: Sequence[arb], loops: Loops) -> int:

@@ -14,7 +14,7 @@ from flint import arb, arb_poly, ctx, fmpq_mpoly, fmpq_poly, fmpz, nmod_poly
 
 from singsym.certificates.checker.polynomials import Rejected, polynomial, rational, remainder, repeated
 from singsym.certificates.checker.ranks import Defects, borders, is_possible, types_of
-from singsym.certificates.checker.sets import MATRICES, RealSet, Statement, listed, named, power
+from singsym.certificates.checker.sets import MATRICES, MOST, RealSet, Statement, listed, named, whole_number
 
 BITS = tuple(2**k for k in range(6, 13))
 PRIME = 2**61 - 1
@@ -51,7 +51,7 @@ def chart_of(at: RealSet, line: Mapping[str, Any]) -> tuple[Chart, fmpq_poly]:
         raise Rejected(f"coordinates: expected one for each of {list(at.variables)}")
     coordinates = {name: _univariate(given, name) % minimal for name in at.variables}
     chart, there = Chart(at, minimal, coordinates), minimal
-    _check_all(chart, form, power(line))
+    _check_all(chart, form, whole_number(line, "power", 1, MOST))
     if (chart.value(form, minimal) - fmpq_poly([0, 1]) * minimal.derivative() ** degree(form)) % minimal:
         raise Rejected("form: it is not the root at its points")
     for equation in at.generators:

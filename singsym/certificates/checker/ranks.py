@@ -7,12 +7,13 @@ Fenton, Benhabib (1998), conditions (i) to (vi), and the inequalities of Table 1
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from itertools import combinations, compress, product
 from typing import Any
 
 from flint import fmpq_mpoly
 
-from singsym.certificates.checker.polynomials import Rejected, determinant, remainder
+from singsym.certificates.checker.polynomials import Rejected, determinant, polynomial, remainder
 from singsym.certificates.checker.rules import is_unit
 from singsym.certificates.checker.sets import MATRICES, RealSet, Statement, chosen, listed, whole_number
 
@@ -72,21 +73,25 @@ def bounds_on(at: RealSet, about: Statement, evidence: Mapping[str, Any]) -> Bou
 
 
 def _rank(at: RealSet, rows: Rows, item: Mapping[str, Any], low: int, high: int) -> tuple[int, int]:
-    """The least and largest rank by one item of evidence.
+    """The least and largest rank by one item of evidence, modulo the equations `divisors`, else modulo all.
 
-    `{"below": k}`: all k-minors vanish.  `{"rows": ..., "columns": ..., "units": ..., "scale": ...}`: this
-    minor is the product of units; with `"exact": true` all minors that border it vanish.
+    `{"below": k}`: all k-minors vanish, or are the product of the equation `of` and the polynomial `by`.
+    `{"rows": ..., "columns": ..., "units": ..., "scale": ...}`: this minor is the product of units; with
+    `"exact": true` all minors that border it vanish.
     """
+    known = at.context.constant(0)
+    if "of" in item:
+        known = chosen(at.equations, [item["of"]], "equation")[0] * polynomial(item.get("by", ""), at.context)
+    if "divisors" in item:
+        at = replace(at, equations=tuple(chosen(at.equations, listed(item, "divisors"), "equation")))
     if "below" in item:
         size = whole_number(item, "below")
-        if size < 1 or any(_minors(at, rows, size)):
+        if size < 1 or any(remainder(f - known, at.equations) for f in _minors(at, rows, size)):
             raise Rejected(f"not all {size}-minors are seen to vanish")
         return low, min(high, size - 1)
     own_rows, own_columns = listed(item, "rows"), listed(item, "columns")
-    chosen(rows, own_rows, "row")
-    chosen(rows[0] if rows else [], own_columns, "column")
-    size = len(own_rows)
-    if len(own_columns) != size or len(set(own_rows)) < size or len(set(own_columns)) < size:
+    size = len([chosen(row, own_columns, "column") for row in chosen(rows, own_rows, "row")])
+    if {len(own_columns), len(set(own_rows)), len(set(own_columns))} != {size}:
         raise Rejected("ranks: expected as many different rows as columns")
     if size and not is_unit(_minor(at, rows, own_rows, own_columns), at, item):
         raise Rejected("a minor is not seen to be the product of units")

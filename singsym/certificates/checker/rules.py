@@ -6,7 +6,7 @@ Kauers 2022).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -14,13 +14,14 @@ from flint import fmpq_mpoly
 
 from singsym.certificates.checker.polynomials import (
     Rejected,
+    determinant,
     polynomial,
     primitive,
     rational,
     remainder,
     s_polynomial,
 )
-from singsym.certificates.checker.sets import RealSet, chosen, listed, power, whole_number
+from singsym.certificates.checker.sets import MOST, RealSet, chosen, listed, whole_number
 
 Line = Mapping[str, Any]
 
@@ -76,7 +77,7 @@ def cancel(at: RealSet, line: Line) -> tuple[RealSet, ...]:
     """One more equation, of which a power times units is in the ideal of those there are."""
     f = polynomial(line.get("polynomial", ""), at.context)
     product, units = at.context.constant(1), chosen(at.units, listed(line, "units"), "unit")
-    for factor in (*units, *[f] * power(line)):
+    for factor in (*units, *[f] * whole_number(line, "power", 1, MOST)):
         product = remainder(product * factor, at.equations)
     if product:
         raise Rejected("the product is not seen to be in the ideal")
@@ -98,6 +99,24 @@ def squares(at: RealSet, line: Line) -> tuple[RealSet, ...]:
     return (at.within([f for _, f in terms]),)
 
 
+def rows(at: RealSet, line: Line) -> tuple[RealSet, ...]:
+    """Rows become combinations of them, by a square matrix `by` with a determinant that vanishes nowhere."""
+    places, texts = listed(line, "rows"), listed(line, "by", list)
+    old, by = chosen(at.matrix, places, "row"), [[polynomial(t, at.context) for t in row] for row in texts]
+    if not old or {len(set(places)), len(by), *map(len, by)} != {len(old)}:
+        raise Rejected("rows: expected different ones, and a square matrix for them")
+    if not is_unit(determinant(by, at.equations), at, line):
+        raise Rejected("the determinant is not seen to be the product of units")
+
+    new = dict(zip(places, (_combined(weights, old) for weights in by), strict=True))
+    return (replace(at, matrix=tuple(new.get(k, row) for k, row in enumerate(at.matrix))),)
+
+
+def _combined(weights: Sequence[fmpq_mpoly], rows: Sequence[Sequence[fmpq_mpoly]]) -> tuple[fmpq_mpoly, ...]:
+    columns = zip(*rows, strict=True)
+    return tuple(sum((w * e for w, e in zip(weights, c, strict=True)), start=c[0] * 0) for c in columns)
+
+
 def pivot(at: RealSet, line: Line) -> tuple[RealSet, ...]:
     """A row and a passive column less, by a pivot that vanishes nowhere: all four ranks are one less."""
     i, j = whole_number(line, "row"), whole_number(line, "column")
@@ -108,18 +127,17 @@ def pivot(at: RealSet, line: Line) -> tuple[RealSet, ...]:
     if not is_unit(entry, at, line):
         raise Rejected("the pivot is not seen to be the product of units")
 
-    def left(k: int) -> tuple[fmpq_mpoly, ...]:
-        other = at.matrix[k]
-        if not other[j]:
-            return tuple(e for c, e in enumerate(other) if c != j)
-        pairs = enumerate(zip(other, row, strict=True))
-        return tuple(remainder(entry * a - other[j] * b, at.equations) for c, (a, b) in pairs if c != j)
+    def left(other: tuple[fmpq_mpoly, ...]) -> tuple[fmpq_mpoly, ...]:
+        if other[j]:
+            sums = _combined((entry, -other[j]), (other, row))
+            other = tuple(remainder(e, at.equations) for e in sums)
+        return other[:j] + other[j + 1 :]
 
-    matrix = tuple(left(k) for k in range(len(at.matrix)) if k != i)
-    roles = tuple(role for c, role in enumerate(at.roles) if c != j)
+    matrix = tuple(map(left, at.matrix[:i] + at.matrix[i + 1 :]))
+    roles = at.roles[:j] + at.roles[j + 1 :]
     return (replace(at, matrix=matrix, roles=roles, eliminated=at.eliminated + 1),)
 
 
 RULES: dict[str, Callable[[RealSet, Line], tuple[RealSet, ...]]] = {
-    rule.__name__: rule for rule in (split, derive, cancel, squares, pivot)
+    rule.__name__: rule for rule in (split, derive, cancel, squares, rows, pivot)
 }

@@ -16,6 +16,7 @@ from singsym.certificates.checker.polynomials import Rejected, polynomial, ratio
 
 Matrix = tuple[tuple[fmpq_mpoly, ...], ...]
 MOST = 64
+"""Higher powers are refused."""
 ROLES = ("output", "input", "passive")
 MATRICES = ("L", "L_p", "L_I", "L_O")
 _WITHOUT = {"L": (), "L_p": ("input", "output"), "L_I": ("input",), "L_O": ("output",)}
@@ -90,19 +91,11 @@ def named(data: Mapping[str, Any], key: str, default: Any = None) -> Mapping[str
     return value
 
 
-def whole_number(data: Mapping[str, Any], key: str) -> int:
-    """A number that is not negative; raises `Rejected` where there is something else."""
-    value = data.get(key)
-    if type(value) is not int or value < 0:
-        raise Rejected(f"{key}: expected a whole number, got {str(value)[:80]}")
-    return value
-
-
-def power(data: Mapping[str, Any], key: str = "power") -> int:
-    """An exponent, 1 where there is none; raises `Rejected` above 64."""
-    value = whole_number({key: 1} | dict(data), key)
-    if not 0 < value <= MOST:
-        raise Rejected(f"{key}: expected a number from 1 to {MOST}, got {value}")
+def whole_number(data: Mapping[str, Any], key: str, default: Any = None, most: int = 2**31) -> int:
+    """A number from 0 to `most`; raises `Rejected` where there is something else."""
+    value = data.get(key, default)
+    if type(value) is not int or not 0 <= value <= most:
+        raise Rejected(f"{key}: expected a whole number up to {most}, got {str(value)[:80]}")
     return value
 
 

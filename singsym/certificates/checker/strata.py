@@ -9,9 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
-from flint import arb, arb_mat, ctx, fmpq, fmpq_mpoly
+from flint import arb, arb_mat, ctx, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
 from singsym.certificates.checker.balls import Compiled, is_off_zero, preconditioned
 from singsym.certificates.checker.polynomials import Rejected, polynomial, rational, remainder, ring
@@ -22,36 +23,52 @@ BITS = 200
 Values = Mapping[str, fmpq]
 INVERSE = "inverse__"
 """The name of the variable that is the inverse of a polynomial."""
+SCALE = "scale__"
+"""The name of the variable that makes polynomials homogeneous."""
 
 
 def dimension_above(at: RealSet) -> int:
     """A bound of the dimension, by the leading monomials of the equations; -1 where one is constant."""
-    supports = [frozenset(i for i, e in enumerate(f.monomial(0)) if e) for f in at.equations if f]
-    if frozenset() in supports:
-        return -1
-    return len(at.variables) - _fewest(supports, len(at.variables))
+    leading = (f.monomial(0) for f in at.equations if f)
+    supports = sorted({frozenset(i for i, e in enumerate(m) if e) for m in leading}, key=len)
+
+    @cache
+    def largest(names: frozenset[int]) -> int:
+        """The most of some variables such that no monomial is in these alone."""
+        inside = next((support for support in supports if support <= names), None)
+        return len(names) if inside is None else max((largest(names - {i}) for i in inside), default=-1)
+
+    return largest(frozenset(range(len(at.variables))))
 
 
-def _fewest(supports: list[frozenset[int]], most: int) -> int:
-    """The fewest variables of which each support has one; `most` where that many are not enough."""
-    if not supports:
-        return 0
-    if most == 0:
-        return 1
-    shortest = min(supports, key=lambda s: (len(s), sorted(s)))
-    best = most
-    for i in sorted(shortest):
-        best = min(best, 1 + _fewest([s for s in supports if i not in s], best - 1))
-    return best
+def dimension_within(at: RealSet, data: Mapping[str, Any]) -> int:
+    """A bound of the dimension, one less than the number of `forms`; raises `Rejected`.
+
+    steps, equations: as of `derive`, from linear forms and the equations made homogeneous, to polynomials led
+    by a power of each variable: no common zero in projective space, where a larger set would meet all.
+    """
+    forms = [polynomial(text, at.context) for text in listed(data, "forms", str)]
+    if any(f.total_degree() != 1 for f in forms):
+        raise Rejected("forms: expected polynomials of degree 1")
+    larger = ring([*at.context.names(), SCALE])
+    start = tuple(homogeneous(f, larger) for f in (*at.equations, *forms) if f)
+    (derived,) = derive(replace(at, context=larger, equations=start), data)
+    leading = [[i for i, e in enumerate(f.monomial(0)) if e] for f in derived.equations if f]
+    if not all([i] in leading for i in range(len(larger.names()))):
+        raise Rejected("dimension: expected polynomials that are led by a power of each variable")
+    return len(forms) - 1
+
+
+def homogeneous(f: fmpq_mpoly, larger: fmpq_mpoly_ctx) -> fmpq_mpoly:
+    """A polynomial times a power of the last variable in each term."""
+    return larger.from_dict({(*m, int(f.total_degree()) - sum(m)): c for m, c in f.terms()})
 
 
 def dimension_below(at: RealSet, point: Mapping[str, Any]) -> int:
     """That of the set near a point of it, of which a box is proven to hold one; raises `Rejected`.
 
-    fixed: variables with their rational values; centre: the others with numbers near theirs; radius: of the
-    box.
-    square: the places of as many equations.  The others follow from these near the point: by `implied`, see
-    `implied`.
+    fixed: variables with their rational values; centre: the others with numbers near; radius: of the box.
+    square: the places of as many equations, from which the others follow near the point, see `implied`.
     Where the box has a point, the gradients of the square system are independent, so that its zeros are a
     manifold there, and the inequalities are strict.
     """

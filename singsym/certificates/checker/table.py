@@ -64,16 +64,6 @@ class Row:
     components: int | None = None
     together: Groups = ()
 
-    def text(self) -> str:
-        """The row in words."""
-        if not self.occurs:
-            return f"{self.types}: {'not proven' if self.occurs is None else 'empty'}"
-        numbers = ((self.points, "points"), (self.components, "components"))
-        sizes = [f"{k} {word}" for k, word in numbers if k is not None]
-        groups = [f"{len(own)} loops together" for own in self.together]
-        dimension = "dimension not proven" if self.dimension is None else f"dimension {self.dimension}"
-        return f"{self.types}: occurs, {', '.join((dimension, *sizes, *groups))}"
-
 
 def proven_row(types: str, findings: Iterable[Finding], together: Groups = ()) -> Row:
     """The row that all leaves of a certificate prove; raises `Rejected` where `together` is not of curves."""
@@ -120,39 +110,33 @@ def claimed_rows(header: Mapping[str, Any]) -> tuple[Row, ...]:
 
 
 def _claimed(entry: Mapping[str, Any]) -> Row:
-    if not isinstance(entry.get("types"), str):
-        raise Rejected(f"claims: expected rows with types, got {str(entry)[:80]}")
-    occurs = entry.get("occurs")
+    types, occurs = entry.get("types"), entry.get("occurs")
     numbers = {key: entry.get(key) for key in ("dimension", "points", "components")}
-    if occurs not in (True, False, None) or not all(k is None or type(k) is int for k in numbers.values()):
-        raise Rejected(f"claims: expected true or false, and numbers, got {str(entry)[:80]}")
+    known = isinstance(types, str) and (occurs is None or type(occurs) is bool)
+    if not known or not all(k is None or type(k) is int for k in numbers.values()):
+        raise Rejected(f"claims: expected types, true or false, and numbers, got {str(entry)[:80]}")
     groups = [listed({"together": own}, "together", list) for own in listed(entry, "together", list, [])]
     together = tuple(tuple(map(tuple, own)) for own in groups)
     loops = [*chain(*together)]
     if any(type(k) is not int for k in chain(*loops)) or len({*loops}) < len(loops):
         raise Rejected(f"claims: expected each loop once, [line, place], got {str(together)[:80]}")
-    return Row(entry["types"], occurs, **numbers, together=together)
-
-
-def contradicted(claim: Row, proven: Row) -> bool:
-    """Whether what is claimed of a row is proven to be wrong."""
-    return any(a is not None and b is not None and a != b for _, a, b in _pairs(claim, proven))
+    return Row(str(types), occurs, **numbers, together=together)
 
 
 def unproven(claim: Row, proven: Row) -> list[str]:
-    """What of a claimed row is not proven, and what it does not claim though a table has it."""
-    found = [what for what, a, b in _pairs(claim, proven) if a is not None and b is None]
-    if claim.occurs is None:
-        found.append("occurrence is not claimed")
-    elif claim.occurs and claim.dimension is None:
-        found.append("dimension is not claimed")
-    elif claim.occurs and claim.dimension == 0 and claim.points is None:
-        found.append("number of points is not claimed")
+    """What of a claimed row is not proven, and what is not claimed; raises `Rejected` if it is wrong."""
+    found, finite = [], claim.occurs and claim.dimension == 0
+    for key, word, expected in (
+        ("occurs", "occurrence", True),
+        ("dimension", "dimension", claim.occurs),
+        ("points", "number of points", finite),
+        ("components", "number of components", False),
+    )[: 1 if claim.occurs is False else None]:
+        a, b = getattr(claim, key), getattr(proven, key)
+        if None not in (a, b) and a != b:
+            raise Rejected(f"claims: {word} of {claim.types} is not {a}; proven is {b}")
+        if a is None and expected:
+            found.append(f"{word} is not claimed")
+        elif a is not None and b is None:
+            found.append(word)
     return found
-
-
-def _pairs(claim: Row, proven: Row) -> list[tuple[str, Any, Any]]:
-    words = {"occurs": "occurrence", "dimension": "dimension"}
-    words |= {key: f"number of {key}" for key in ("points", "components")}
-    keys = ("occurs",) if claim.occurs is False else words
-    return [(words[key], getattr(claim, key), getattr(proven, key)) for key in keys]

@@ -17,6 +17,7 @@ from flint import arb, arb_mat, ctx, fmpq, fmpq_mpoly
 from singsym.certificates.checker.polynomials import Rejected, remainder, ring
 from singsym.certificates.checker.sets import RealSet
 from singsym.certificates.checker.strata import BITS, INVERSE, dimension_below
+from singsym.certificates.prover.multipliers import multipliers
 from singsym.certificates.prover.traced_basis import traced_basis
 from singsym.effort.attempts import attempt
 from singsym.elimination.ideal import Ideal
@@ -206,7 +207,8 @@ def is_off(f: fmpq_mpoly, point: Sequence[complex]) -> bool:
 def _locals(at: RealSet, rows: Sequence[int]) -> Iterator[fmpq_mpoly]:
     """Polynomials off whose zeros the equations may be those of a square system.
 
-    1; the product of the units; polynomials whose products with all equations are in the square's ideal.
+    1; the product of the units; polynomials whose products with the other generators are in the square's
+    ideal, those of low degree first.
     """
     units = at.context.constant(1)
     yield units
@@ -214,9 +216,5 @@ def _locals(at: RealSet, rows: Sequence[int]) -> Iterator[fmpq_mpoly]:
         units = units * unit
     if len(units) < MOST_TERMS:
         yield units
-    ring = Ring(at.variables)
-    everything = Ideal(ring, [Polynomial(ring, e) for e in at.equations if e])
     with attempt("a quotient of ideals", QUOTIENT):
-        square = Ideal(ring, [Polynomial(ring, at.equations[k]) for k in rows])
-        found = square.quotient(everything).value.groebner_basis().value
-        yield from sorted((f.value for f in found), key=_length)
+        yield from multipliers([at.equations[k] for k in rows], _others(at, rows))

@@ -13,21 +13,23 @@ from itertools import combinations
 from math import comb
 from typing import Any
 
-from flint import fmpq, fmpq_mpoly
+from flint import fmpq_mpoly
 
 from singsym.certificates.checker.curves import components
-from singsym.certificates.checker.polynomials import Rejected, remainder
+from singsym.certificates.checker.polynomials import Rejected, determinant, remainder
 from singsym.certificates.checker.ranks import bounds_on, possible_types
-from singsym.certificates.checker.rules import derive
 from singsym.certificates.checker.sets import RealSet, Statement
 from singsym.certificates.checker.strata import dimension_above
 from singsym.certificates.checker.table import Finding
+from singsym.certificates.prover.bases import based, basis_steps, has_zeros, is_based
 from singsym.certificates.prover.boxes import point_leaf, seems_in
+from singsym.certificates.prover.dimensions import dimension_leaf
 from singsym.certificates.prover.finite import points_leaf
 from singsym.certificates.prover.loops import all_zeros, curve_leaf
-from singsym.certificates.prover.traced_basis import traced_basis
+from singsym.certificates.prover.passive_columns import mixed_rows, pivot
 from singsym.certificates.prover.tree import Node, Tree
 from singsym.certificates.prover.unit_products import (
+    LONGEST_PRODUCT,
     cancelled,
     factors,
     open_factors,
@@ -35,16 +37,16 @@ from singsym.certificates.prover.unit_products import (
     unit_form,
     units_of,
 )
+from singsym.certificates.prover.vanishing_squares import vanishing_squares
 from singsym.effort.attempts import attempt
-from singsym.effort.budget import Undecided, current
-from singsym.elimination.ideal import Ideal, intersection
+from singsym.effort.budget import Undecided
+from singsym.elimination.ideal import intersection
 from singsym.polynomials import Polynomial, Ring
-from singsym.polynomials.sums_of_squares import squares_less_constant
 from singsym.varieties.decomposition import decompose
-from singsym.varieties.real.proofs.real_consequences import combined
 
-PART, WHOLE, EMPTY = 60.0, 600.0, 5.0
-"""Seconds of work for one part of the configuration space, for all of it, and to see that a set is empty."""
+PART, WHOLE, EMPTY, BASIS = 60.0, 600.0, 5.0, 5.0
+"""Seconds of work for one part of the configuration space, for all of it, to see that a set is empty, and for
+a basis without which there may be a way."""
 MOST_MINORS = 400
 
 
@@ -57,13 +59,15 @@ class Hints:
     """What is known beforehand, none of it as a proof.
 
     loci: polynomials to split on; products: multiples of determinants, on the configuration space; points:
-    numerical configurations; curves: whether components of curves are wanted.
+    numerical configurations; curves: whether components of curves are wanted; columns: passive ones, in the
+    order in which they may go.
     """
 
     loci: tuple[fmpq_mpoly, ...] = ()
     products: tuple[fmpq_mpoly, ...] = ()
     points: tuple[tuple[float, ...], ...] = ()
     curves: bool = False
+    columns: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -77,7 +81,7 @@ class Proof:
 def prove(about: Statement, hints: Hints, seconds: float = WHOLE) -> Proof:
     """A proof; parts on which none is found in so much work are left open, with the reason."""
     prover = _Prover(Tree(about), hints)
-    prover.attempted(lambda: prover.take_apart(prover.reduced(prover.tree.root), hints.loci), seconds)
+    prover.attempted(prover.begin, seconds)
     closed = {line["at"] for line in prover.tree.lines}
     why = "; ".join(dict.fromkeys(map(str, prover.failures)))
     left = [number for number in range(prover.tree.numbers + 1) if number not in closed]
@@ -103,10 +107,17 @@ class _Prover:
                 raise Undecided(f"the checker would not follow: {error}") from None
         return None
 
-    def reduced(self, node: Node) -> Node:
+    def begin(self) -> None:
+        """The whole configuration space."""
+        node = self.reduced(self.tree.root, self.hints.columns)
+        self.take_apart(node, self.hints.loci)
+
+    def reduced(self, node: Node, first: Sequence[int] = ()) -> Node:
         """The set with a smaller matrix: passive columns go with pivots that are products of units."""
-        while (found := _pivot(node.at)) is not None:
-            (left,) = self.tree.apply(node, "pivot", **found)
+        while (found := pivot(node.at, first) or mixed_rows(node.at)) is not None:
+            (left,) = self.tree.apply(node, "pivot" if "column" in found else "rows", **found)
+            if (gone := found.get("column")) is not None:
+                first = [j - (j > gone) for j in first if j != gone]
             node = replace(left, full=node.full)
         return node
 
@@ -116,11 +127,15 @@ class _Prover:
             by = remainder(locus, node.at.equations)
             if not by or product_of_units(by, node.at, units_of(node.at)) is not None:
                 continue
+            if not is_based(node):
+                # factors of determinants as they are
+                by = locus
             split = self._split(node, by, loci[k + 1 :])
             if split is None:
                 return
             node = split
-        self.attempted(lambda: self._ranked(node))
+        if not self._ranked_without_basis(node):
+            self.attempted(lambda: self._ranked(node))
 
     def _split(self, node: Node, by: fmpq_mpoly, loci: Sequence[fmpq_mpoly]) -> Node | None:
         """What is left of a set off the zeros of a polynomial, which are dealt with; None if it is empty."""
@@ -128,13 +143,16 @@ class _Prover:
         dimension = self.attempted(lambda: self._on_locus(zero, loci))
         # each component of complex zeros has at least this dimension (Krull)
         least = len(node.at.variables) - len(node.at.generators)
-        if dimension is not None and dimension < least and (node.full or _has_zeros(node.at)):
+        if dimension is not None and dimension < least and (node.full or has_zeros(node.at)):
             return replace(rest, full=True)
         return self._unless_empty(rest)
 
-    def _on_locus(self, node: Node, loci: Sequence[fmpq_mpoly]) -> int:
-        """A set with one more equation; its dimension over the complex numbers."""
-        node = self._based(node)
+    def _on_locus(self, node: Node, loci: Sequence[fmpq_mpoly]) -> int | None:
+        """A set with one more equation; its dimension over the complex numbers, where its basis is short."""
+        node = self._based_if_short(node)
+        if not is_based(node):
+            self.take_apart(node, loci)
+            return None
         dimension = dimension_above(node.at)
         self._on_basis(node, loci)
         return dimension
@@ -144,7 +162,7 @@ class _Prover:
         left = self._unless_empty(node)
         if left is None:
             return
-        if terms := _squares(left.at):
+        if terms := vanishing_squares(left.at):
             (more,) = self.tree.apply(left, "squares", terms=terms)
             self._on_locus(more, loci)
         elif dimension_above(left.at) == 0:
@@ -154,10 +172,16 @@ class _Prover:
 
     def _based(self, node: Node) -> Node:
         """The set with a Groebner basis among its equations."""
-        if _is_based(node):
+        if is_based(node):
             return node
-        (found,) = self.tree.apply(node, "derive", **_basis_steps(node.at, node.based))
+        (found,) = self.tree.apply(node, "derive", **basis_steps(node.at, node.based))
         return replace(found, based=len(found.at.equations), full=node.full)
+
+    def _based_if_short(self, node: Node) -> Node:
+        """The same set, with a Groebner basis where one is found in a short time."""
+        with attempt("a short basis for a certificate", BASIS):
+            return self._based(node)
+        return node
 
     def _unless_empty(self, node: Node) -> Node | None:
         """A set, None where it is seen to be empty; then it is closed."""
@@ -169,13 +193,13 @@ class _Prover:
                 self.tree.leaf(node, "empty", equation=place)
                 return None
         if seems_in(at, self.hints.points):
-            return replace(node, full=_is_based(node))
+            return replace(node, full=is_based(node))
         with attempt("that a set is empty", EMPTY):
             if (found := cancelled(at.context.constant(1), at)) is not None:
                 (node,) = self.tree.apply(node, "cancel", polynomial="1", **found)
                 self.tree.leaf(node, "empty", equation=len(node.at.equations) - 1)
                 return None
-        return replace(node, full=_is_based(node))
+        return replace(node, full=is_based(node))
 
     # -- ranks ---------------------------------------------------------------------------------------
 
@@ -220,6 +244,49 @@ class _Prover:
             if "point" not in data and dimension_above(at) == 1:
                 data |= self._curve(at, types, {})
         self.tree.leaf(node, "ranks", **data)
+
+    def _ranked_without_basis(self, node: Node) -> bool:
+        """A leaf where the determinants of L_I and L_O, as they are, decide the types; whether it is one.
+
+        Where no loci are known the set is split on their factors instead.
+        """
+        at, evidence = node.at, dict[str, Any]()
+        free = replace(at, equations=())
+        units = units_of(free)
+        for name in ("L_I", "L_O"):
+            rows = at.part(at.matrix, name)
+            if is_based(node) or not rows or len(rows) != len(rows[0]):
+                return False
+            f, every = determinant(rows, []), list(range(len(rows)))
+            if (form := product_of_units(f, free, units)) is not None:
+                evidence[name] = [{"rows": every, "columns": every, "divisors": [], **form}]
+            elif f and (multiple := self._multiple(f, at)) is not None:
+                evidence[name] = [{"below": len(rows), "divisors": [], **multiple}]
+            elif f and not self.hints.loci and len(f) <= LONGEST_PRODUCT:
+                rest = self._split(node, factors(f, units)[0], ())
+                if rest is not None:
+                    self.take_apart(rest, ())
+                return True
+        data: dict[str, Any] = {"ranks": evidence}
+        if len(types := self._types(at, evidence)) != 1:
+            return False
+        if types != {""}:
+            point = point_leaf(at, self.hints.points)
+            bound = None if point is None else dimension_leaf(at, point[1])
+            if point is None or bound is None:
+                return False
+            data |= {"point": point[0], "dimension": bound}
+        self.tree.leaf(node, "ranks", **data)
+        return True
+
+    def _multiple(self, f: fmpq_mpoly, at: RealSet) -> dict[str, Any] | None:
+        """`of` and `by` of a polynomial that is a multiple of an equation more than the statement has."""
+        for place, equation in enumerate(at.equations):
+            if equation not in self.tree.about.whole.equations:
+                quotient, rest = divmod(f, equation)
+                if not rest:
+                    return {"of": place, "by": str(quotient)}
+        return None
 
     def _shown(self, at: RealSet, types: frozenset[str]) -> dict[str, Any]:
         """`point` and `curve` of a set, as far as they are found."""
@@ -313,51 +380,6 @@ class _Prover:
         return {"below": 1}
 
 
-def _is_based(node: Node) -> bool:
-    """Whether the equations of a set hold a Groebner basis of their ideal."""
-    return node.based == len(node.at.equations)
-
-
-def _basis_steps(at: RealSet, known: int) -> dict[str, Any]:
-    """The rule `derive` to a Groebner basis, and the equations there are where they are not all of it.
-
-    known: so many of the first equations may hold a basis of their own ideal.
-    """
-    own = Ring(at.variables)
-    ideal = Ideal(own, [Polynomial(own, e) for e in at.equations if e])
-    target = [tuple(map(int, m)) for m in ideal.leading_monomials().value]
-    found = traced_basis(at.equations, current(), target, known)
-    if {*target} - {tuple(map(int, e.monomial(0))) for e in found.basis}:
-        found = traced_basis(at.equations, current(), target)
-    is_unit = bool(found.basis) and found.basis[0].is_constant()
-    kept = [] if is_unit else [k for k in range(len(at.equations)) if k not in found.equations]
-    return {"steps": found.steps, "equations": [*kept, *found.equations]}
-
-
-def _has_zeros(at: RealSet) -> bool:
-    """Whether the equations of a set that excludes nothing have complex zeros."""
-    own = Ring(at.variables)
-    return not at.units and Ideal(own, [Polynomial(own, e) for e in at.equations if e]).dimension.value >= 0
-
-
-def _squares(at: RealSet) -> list[list[str]]:
-    """Weights and polynomials whose squares add up to zero on a set, where not all vanish there anyway."""
-    ring = Ring(at.variables)
-    given, others = ([Polynomial(ring, g) for g in group if g] for group in (at.generators, at.equations))
-    for f in dict.fromkeys((*combined(given), *others)):
-        _, squares, less = squares_less_constant(f) or (0, (), fmpq(1))
-        terms = [*squares, *([(-less, ring.one)] if less < 0 else [])]
-        if less <= 0 and any(remainder(root.value, at.equations) for _, root in terms):
-            return [[str(weight), str(root)] for weight, root in terms]
-    return []
-
-
-def based(at: RealSet, known: int = 0) -> tuple[RealSet, dict[str, Any]]:
-    """The set with a Groebner basis, and the steps to it; known: as `_basis_steps` has it."""
-    steps = _basis_steps(at, known)
-    return derive(at, steps)[0], steps
-
-
 def _questions(at: RealSet, about: Statement) -> Iterator[tuple[str, bool]]:
     """The ranks in the order in which they are asked for, and whether exactly."""
     if len(at.matrix) > about.N - at.eliminated:
@@ -385,19 +407,3 @@ def _passive_factors(at: RealSet) -> list[fmpq_mpoly]:
     units = units_of(at)
     found = (factor for entry in entries for factor in factors(entry, units))
     return sorted(found, key=lambda f: (len(f), f.total_degree(), str(f)))
-
-
-def _pivot(at: RealSet) -> dict[str, Any] | None:
-    """The pivot in a passive column that leaves the fewest entries, constants first."""
-    best: tuple[tuple[int, ...], dict[str, Any]] | None = None
-    units = units_of(at)
-    for j in (j for j, role in enumerate(at.roles) if role == "passive"):
-        below = [i for i, row in enumerate(at.matrix) if row[j]]
-        for i in below:
-            row = at.matrix[i]
-            entry = remainder(row[j], at.equations)
-            cost = (len(below) - 1) * (sum(map(bool, row)) - 1)
-            key = (int(not entry.is_constant()), cost, sum(map(len, row)))
-            if (best is None or key < best[0]) and (form := product_of_units(entry, at, units)) is not None:
-                best = key, {"row": i, "column": j, **form}
-    return None if best is None else best[1]

@@ -20,6 +20,7 @@ from singsym.certificates.prover.proof import WHOLE, Hints, prove
 from singsym.classes.result import Classification, ClassResult, Piece
 from singsym.classes.taxonomy.types import feasible_classes
 from singsym.conditions.conditions import Conditions, conditions
+from singsym.kinematics.reduction import reduce
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.polynomials import Equations, Polynomial
 
@@ -112,7 +113,7 @@ def _is_along(curve: Finding, place: int, piece: Piece) -> bool:
 
 
 def _hints(result: Classification, found: Conditions) -> Hints:
-    """The loci of (4) and (5), their products with multiplicities, and the configurations that are known."""
+    """The loci of (4) and (5), their products, known configurations, and the order of a reduction."""
     names = result.equation.space.ring.names
     loci: dict[Polynomial, None] = {}
     products = []
@@ -128,4 +129,7 @@ def _hints(result: Classification, found: Conditions) -> Hints:
         for witness in row.witnesses
     ]
     curves = any(row.components is not None and row.dimension == 1 for row in result.classes)
-    return Hints(tuple(p.value for p in loci), tuple(p.value for p in products), tuple(points), curves)
+    places = {column.label: j for j, column in enumerate(result.equation.columns)}
+    columns = tuple(places[label] for step in reduce(result.equation).record for label in step.columns)
+    factors, determinants = (tuple(p.value for p in group) for group in (loci, products))
+    return Hints(factors, determinants, tuple(points), curves, columns)

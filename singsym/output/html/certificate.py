@@ -17,6 +17,7 @@ from typing import Any
 from singsym.certificates.checker.table import Row
 from singsym.certificates.checker.verification import Verification, verify
 from singsym.certificates.prover.writing import statement_data
+from singsym.certificates.wording import TRUSTED, row_text
 from singsym.classes.result import Classification, ClassResult
 from singsym.output.pieces import counted
 
@@ -83,7 +84,7 @@ def sentence(proof: Proof, result: ClassResult) -> str:
         return (
             'By the <a href="#certificate">certificate</a>: no leaf has these types, and no set is left open.'
         )
-    said = row.text().removeprefix(f"{row.types}: ")
+    said = row_text(row).removeprefix(f"{row.types}: ")
     return f"By the certificate: {escape(said)} ({linked(proof, result)})."
 
 
@@ -101,7 +102,7 @@ def certificate(proof: Proof) -> str:
         parts.append(f"<p>Not proven:</p><ul>{items}</ul>")
     from_line = {n: k for k, line in enumerate(proof.lines, 3) for n in line.get("into", ())}
     items = "".join(_item(proof, k, line, from_line) for k, line in enumerate(proof.lines, 3))
-    trusted = "; ".join(map(escape, verified.trusted))
+    trusted = "; ".join(map(escape, TRUSTED))
     return f'{"".join(parts)}<ol start="3">{items}</ol><p class="note">Taken on trust: {trusted}.</p>'
 
 
@@ -163,6 +164,12 @@ def _squares(line: Line) -> str:
     return f"{zero} are zero, as a sum of their squares is in the ideal: {_sets(line['into'])}"
 
 
+def _rows(line: Line) -> str:
+    places = ", ".join(str(k + 1) for k in line["rows"])
+    what = f"rows {places} of L are combined by a matrix with a determinant that vanishes nowhere"
+    return f"{what}: {_sets(line['into'])}"
+
+
 def _pivot(line: Line) -> str:
     what = f"row {line['row'] + 1} and column {line['column'] + 1} of L go by a pivot that vanishes nowhere"
     return f"{what}: {_sets(line['into'])}"
@@ -173,6 +180,7 @@ _WORDS: dict[str, Callable[[Line], str]] = {
     "derive": _derive,
     "cancel": _cancel,
     "pivot": _pivot,
+    "rows": _rows,
     "squares": _squares,
     "empty": lambda line: "no points, as one of its equations is a number that is not zero",
     "points": lambda line: "finitely many points, all known",
