@@ -55,8 +55,11 @@ def positive_combination(polynomials: Sequence[Polynomial]) -> Polynomial | None
     own = [f / max(abs(c) for _, c in f.terms()) for f in polynomials if f and f.total_degree <= 2]
     if not own or max(len(own), len(own[0].ring.names)) > MOST:
         return None
-    weights = _weights(numpy.array([_gram(f) for f in own]))
-    if numpy.abs(weights).max() < LEAST:
+    try:
+        weights = _weights(numpy.array([_gram(f) for f in own]))
+    except numpy.linalg.LinAlgError:
+        return None
+    if not numpy.abs(weights).max() >= LEAST:
         return None
     weights = weights / numpy.abs(weights).max()
     for most in DENOMINATORS:
@@ -103,7 +106,7 @@ def _weights(forms: Floats) -> Floats:
             curvature += 2 * ball / left + 4 * numpy.outer(ball @ at, ball @ at) / left**2
             step = -numpy.linalg.lstsq(curvature, slope, rcond=None)[0]
             if not numpy.isfinite(step).all():
-                break
+                raise numpy.linalg.LinAlgError("no step of Newton's method")
             while not _is_inside(at + step, directions, ball):
                 step = step / 2
             at = at + step
