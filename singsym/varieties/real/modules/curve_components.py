@@ -24,7 +24,8 @@ from singsym.varieties.real.modules.coverings import Covering, coverings, is_arc
 from singsym.varieties.real.modules.crossing_curves import components_of_crossing, crossing_parts
 from singsym.varieties.real.modules.curve_point import CurvePoint
 from singsym.varieties.real.modules.lifted_curve import LiftedCurve
-from singsym.varieties.real.modules.module_points import has_no_assembly, points_of, without_given
+from singsym.varieties.real.modules.module_points import points_of, without_given
+from singsym.varieties.real.modules.no_assembly import has_no_assembly
 from singsym.varieties.real.modules.towers import Tower, towers
 from singsym.varieties.real.points.boxed_point import BoxPoint
 from singsym.varieties.real.points.intervals import sign_on_box
