@@ -50,7 +50,7 @@ from singsym.kinematics.reduction import reduce
 from singsym.kinematics.velocity import VelocityEquation
 from singsym.mechanism.model import Mechanism
 from singsym.polynomials.unit_circles import Pair, unit_circles
-from singsym.varieties.real.dimension.extent import union
+from singsym.varieties.real.dimension.extent import Extent, union
 from singsym.varieties.real.system import RealSystem
 
 T = TypeVar("T")
@@ -297,21 +297,21 @@ class _Work:
     def _loci(self, explored: Exploration, pieces: Sequence[Piece]) -> tuple[Locus, ...]:
         """The real zeros of each factor of (4) and (5) on the configuration space, whatever their class.
 
-        They are bounded by all singular strata together, where these are all found.
+        They are bounded by all strata together on which L_I, or L_O, is singular, where these are all found.
         """
         factors = [(label, factor) for label in ("4", "5") for factor in self.conditions[label].factors]
-        singular = union((p.extent for p in pieces if p.defects.types), explored.doubts_of_any)
-        singular = replace(singular, bounded=weakest(singular.bounded, explored.certainty))
+        singular = {label: self._singular(label, explored, pieces) for label, _ in factors}
+        limits = [singular[label] for label, _ in factors]
         known = [self._in_time(partial(largest_inside, factor, pieces), None) for _, factor in factors]
         bounded = [
-            self.equation.n > 1 and piece is not None and 0 < piece.extent.at_least == singular.dimension
-            for piece in known
+            self.equation.n > 1 and piece is not None and 0 < piece.extent.at_least == limit.dimension
+            for piece, limit in zip(known, limits, strict=True)
         ]
         left = [i for i, done in enumerate(bounded) if not done]
         tasks = [
             replace(
                 self._task(self._whole(factors[i][1]), None),
-                most=singular.at_most,
+                most=limits[i].at_most,
                 seconds=self.limits.seconds if known[i] is None else self.limits.part(patience.LOCUS.work),
             )
             for i in left
@@ -320,9 +320,9 @@ class _Work:
         found = []
         for i, piece in enumerate(known):
             if piece is None or not bounded[i]:
-                found.append(at_least(bounded_by(whole[i].pieces[0], singular), piece))
+                found.append(at_least(bounded_by(whole[i].pieces[0], limits[i]), piece))
             else:
-                found.append(replace(piece, extent=singular, points=None, components=None))
+                found.append(replace(piece, extent=limits[i], points=None, components=None))
         curves = [i for i, piece in enumerate(found) if piece.dimension == 1 and self._counting]
         equations = self.equation.space.equations
         counted = self._count([CurveTask(((*equations, factors[i][1].polynomial),), ((),)) for i in curves])
@@ -331,6 +331,12 @@ class _Work:
             locus_of(label, factor, found[i], numbers.get(i), self._counting)
             for i, (label, factor) in enumerate(factors)
         )
+
+    def _singular(self, label: str, explored: Exploration, pieces: Sequence[Piece]) -> Extent:
+        """How large the zeros of (4), or of (5), are together: where k_I, or k_O, is positive."""
+        own = (p for p in pieces if (p.defects.k_I if label == "4" else p.defects.k_O))
+        singular = union((p.extent for p in own), explored.doubts_of_any)
+        return replace(singular, bounded=weakest(singular.bounded, explored.certainty))
 
     def _in_time(self, question: Callable[[], T], otherwise: T) -> T:
         """The answer to what is asked in this process, or the other where everything has to end."""

@@ -26,13 +26,14 @@ from singsym.classes.taxonomy.types import Defects, SingularityType
 from singsym.conditions.conditions import Conditions
 from singsym.effort import patience
 from singsym.effort.attempts import attempt
-from singsym.effort.verdict import Premises, Verdict
+from singsym.effort.verdict import Known, Premises, Verdict
 from singsym.elimination.ideal import Ideal
 from singsym.mechanism.model import Mechanism
 from singsym.minors.determinant import maximal_minors
-from singsym.polynomials import PolynomialMatrix
+from singsym.polynomials import Equations, PolynomialMatrix, Ring
 from singsym.varieties.decomposition import decompose
 from singsym.varieties.real.dimension.extent import Extent, union
+from singsym.varieties.real.modules.dimension import dimension_bound
 from singsym.varieties.real.points.intervals import jacobian
 from singsym.varieties.real.proofs.emptiness import is_empty_over_reals
 from singsym.varieties.real.system import RealSystem
@@ -175,7 +176,7 @@ def _is_complete_intersection(conditions: Conditions) -> bool:
         return False
     usual = equation.n + len(space.parameters)
     with attempt("the dimensions of the loop equations", patience.SMOOTHNESS.work):
-        whole = Ideal(space.ring, space.equations).dimension
+        whole = _dimension(space.ring, space.equations, usual)
         if whole.value > usual:
             return False
         for label in ("5", "4"):
@@ -183,8 +184,17 @@ def _is_complete_intersection(conditions: Conditions) -> bool:
             if conditions[label].alternatives is None or conditions[label].everywhere:
                 continue
             premises = Premises(whole.certainty)
-            parts = (Ideal(space.ring, (*space.equations, *locus)) for locus in alternatives)
-            smaller = all(premises.take(part.dimension) < usual for part in parts)
+            systems = ((*space.equations, *locus) for locus in alternatives)
+            parts = (_dimension(space.ring, system, usual - 1) for system in systems)
+            smaller = all(premises.take(part) < usual for part in parts)
             if smaller and premises.certainty == "proven":
                 return True
     return False
+
+
+def _dimension(ring: Ring, equations: Equations, most: int) -> Known[int]:
+    """That of the complex zeros, or a bound of it that is no larger than `most`."""
+    bound = dimension_bound(tuple(filter(None, equations)), complex_too=True)
+    if bound is not None and bound.value <= most:
+        return bound
+    return Ideal(ring, equations).dimension

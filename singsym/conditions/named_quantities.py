@@ -78,8 +78,9 @@ class PointNames:
         """The name of a factor; None where none of the determinants of named points is it."""
         own = self.certifier.normal_form(polynomial)
         wanted = own.primitive()
-        square = self.certifier.normal_form(wanted * wanted).primitive()
         for lengths, values in self._kinds():
+            # of a long polynomial a square is very long
+            square = self.certifier.normal_form(wanted * wanted).primitive() if lengths else None
             for key, value, quantity in lengths:
                 if key == square and (name := self._as_length(quantity, value, own)) is not None:
                     return name

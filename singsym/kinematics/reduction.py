@@ -9,6 +9,8 @@ have the same rows, and all contain the passive columns: a pivot in a passive co
 Lemma (block).  Let k columns be zero outside k + 1 rows, B these rows, w the vector of the signed k-minors
 of B.  Then w B = 0, w w = det(B^T B), and where w w is nonzero the square matrix of rows B^T, w is
 invertible: it may act on the k + 1 rows.  The first k then go with the columns, the one with w stays.
+
+Lemma (content).  A column may be divided by a factor of its entries that is nonzero: no rank changes.
 """
 
 from __future__ import annotations
@@ -16,6 +18,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations, permutations
+from math import prod
 
 from flint import fmpq, fmpz
 
@@ -118,7 +121,8 @@ class _Elimination:
         while self._sparsify():
             pass
         while self._pivot() or self._block() or (self.thorough and self._pair()):
-            pass
+            if self.thorough:
+                self._tidy_columns()
 
     def _column(self, j: int) -> list[int]:
         return [i for i, row in enumerate(self.entries) if row[j]]
@@ -257,13 +261,34 @@ class _Elimination:
         return self._primitive([self.certifier.shorten(e) for e in self._primitive(row)])
 
     def _primitive(self, row: list[Polynomial]) -> list[Polynomial]:
-        common = self.ring.zero
-        for e in row:
-            common = common.gcd(e) if common else e
-        if not common.is_constant and self.certifier.reason(common) is not None:
-            row = [e.exact_quotient(common) for e in row]
+        units = self._units(row)
+        if not units.is_constant:
+            row = [e.exact_quotient(units) for e in row]
         content = _rational_content(row)
         return [e * content for e in row]
+
+    def _units(self, entries: Sequence[Polynomial]) -> Polynomial:
+        """The common factors of some polynomials that are nonzero everywhere."""
+        common = self.ring.zero
+        for e in entries:
+            common = common.gcd(e) if common else e
+            if common.is_constant and common:
+                return self.ring.one
+        if not common:
+            return self.ring.one
+        parts = (f**k for f, k in common.factors() if self.certifier.reason(f) is not None)
+        return prod(parts, start=self.ring.one)
+
+    def _tidy_columns(self) -> None:
+        """Columns without their contents: where pivots came as factors into others, these get short again."""
+        for j in range(len(self.columns)):
+            support = self._column(j)
+            if len(support) < 2:
+                continue
+            units = self._units([self.entries[i][j] for i in support])
+            if not units.is_constant:
+                for i in support:
+                    self.entries[i][j] = self.entries[i][j].exact_quotient(units)
 
     def _note(self, columns: Sequence[int], rows: Sequence[int], pivot: Polynomial) -> None:
         self.record.append(

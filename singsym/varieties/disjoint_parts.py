@@ -53,16 +53,25 @@ def _groups(equations: Equations) -> Iterator[Equations]:
     """Some of the equations: all in the variables of one of them, that are more than a dyad.
 
     Lengths and points in line are of second degree.  First without those in fewer than half of these, which
-    say where one of three moving points is.
+    say where one of three moving points is; then with those that a length was shortened by.
     """
     quadrics = [p for p in equations if p.total_degree <= 2]
     for last in reversed(quadrics):
         names = set(last.variables)
         group = tuple(p for p in quadrics if names.issuperset(p.variables))
         between = tuple(p for p in group if 2 * len(p.variables) >= len(names))
-        for own in dict.fromkeys((between, group)):
+        for own in dict.fromkeys((between, _with_squares(between, group), group)):
             if 2 < len(own) < len(equations) and len(names) <= MOST_VARIABLES:
                 yield own
+
+
+def _with_squares(between: Equations, group: Equations) -> Equations:
+    """With those of a group that have the squares of unknowns of which lengths have none.
+
+    One of them was taken away where |PA| = |PC| makes P C of both.
+    """
+    bare = {name for p in between for name in p.variables if len(p.variables) <= 4 and p.degree(name) == 1}
+    return tuple(p for p in group if p in between or any(p.degree(name) == 2 for name in bare))
 
 
 def _apart(group: Equations) -> tuple[Equations, ...] | None:
@@ -77,7 +86,9 @@ def _apart(group: Equations) -> tuple[Equations, ...] | None:
             known = {p.primitive() for p in ring.relations}
             own = tuple(map(ring.convert, group))
             parts = [
-                _shortly(tuple(p for p in c.generators if p.primitive() not in known), own)
+                _shortly(
+                    tuple(p for p in c.generators if p.primitive() not in known), own, free - c.dimension
+                )
                 for c in found.value
             ]
             if all(len(p) == free - c.dimension for p, c in zip(parts, found.value, strict=True)):
@@ -86,20 +97,21 @@ def _apart(group: Equations) -> tuple[Equations, ...] | None:
     return None
 
 
-def _shortly(part: Equations, group: Equations) -> Equations:
-    """The part by its linear equations and one of the group's, in few variables, where that will do.
+def _shortly(part: Equations, group: Equations, codimension: int) -> Equations:
+    """The part by its linear equations and one or two of the group's, in few variables, where these will do.
 
     What is known of these variables by other equations is seen there again.
     """
     linear = tuple(p for p in part if p.total_degree == 1)
-    if len(linear) + 1 != len(part):
+    rest, left = [p for p in part if p not in linear], codimension - len(linear)
+    if not rest or left not in (1, 2):
         return part
-    (rest,) = (p for p in part if p not in linear)
-    for known in sorted(group, key=lambda p: (len(p.variables), len(p))):
-        if known.total_degree > 1:
-            inside = Ideal(known.ring, (*linear, known)).contains(rest)
-            if inside.value and inside.is_proven:
-                return (*linear, known)
+    others = sorted((p for p in group if p.total_degree > 1), key=lambda p: (len(p.variables), len(p)))
+    for known in combinations(others, left):
+        ideal = Ideal(part[0].ring, (*linear, *known))
+        inside = [ideal.contains(p) for p in rest]
+        if all(found.value and found.is_proven for found in inside):
+            return (*linear, *known)
     return part
 
 

@@ -162,3 +162,40 @@ def test_a_gantry_without_loops_or_turns() -> None:
     assert all(c.verdict.is_no for c in result.classes)
     (space,) = result.configuration_space
     assert space.dimension == 3
+
+
+def test_loci_of_4_are_as_large_as_the_strata_with_k_I_and_come_apart_before_they_are_counted() -> None:
+    """Everywhere RI, IO, as C2 is on a circle; (4) holds on curves alone: no locus is examined by itself.
+
+    C1, C2, G2: |C1 G2| = 6, C1 on two arcs by |C1 B| from 5 to 7; on the right one the two P are one at
+    (10, 0), on the left one they stay 2: 3 curves.  |C1 G2| = 2 at C1 = (4, -2) alone, with 2 P: 5.
+    C1, P, Q: |PQ| = 11 at C1 = A alone, with 2 C2; |PQ| = 1, a kite A, P, Q, B: P is B, |C1 G2| up to 6, or P
+    moves from B, with |C1 G2| = 4 there, until |C1 G2| = 6 on the other side: one curve that crosses itself.
+    """
+    text = """name = "kite"
+inputs = ["A", "B"]
+output = { velocity = "C2" }
+[links]
+ground = { points = { A = [0, 0], B = [4, 3], G2 = [4, 0] } }
+AP = 5
+BQ = 1
+PC1 = 5
+C1Q = 6
+C1C2 = 2
+C2G2 = 4
+[joints]
+A = "R"
+B = "R"
+G2 = "R"
+P = "R"
+Q = "R"
+C1 = "R"
+C2 = "R"
+"""
+    stages = set()
+    found = classify(loads(text), cache=False, progress=lambda event: stages.add(event.stage))
+    assert [(locus.condition, locus.dimension) for locus in found.loci] == [("4", 1), ("4", 1)]
+    counted = {locus.words: locus.components for locus in found.loci}
+    assert counted == {"C1, C2, G2 collinear": 5, "C1, P, Q collinear": 3}
+    assert "curves" in stages
+    assert "loci" not in stages

@@ -5,12 +5,20 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import pytest
+
 from singsym.classes.classify import classify
-from singsym.classes.configuration_space import configuration_space, smoothness
+from singsym.classes.configuration_space import (
+    _is_complete_intersection,
+    configuration_space,
+    smoothness,
+)
 from singsym.classes.result import Piece
 from singsym.classes.taxonomy.types import SingularityType as T
 from singsym.conditions.conditions import conditions
-from singsym.effort.verdict import Verdict
+from singsym.effort.verdict import Known, Verdict
+from singsym.elimination.ideal import Ideal
+from singsym.kinematics.velocity import velocity_equation
 from singsym.mechanism import load, loads
 from singsym.varieties.real.dimension.extent import Extent
 
@@ -81,3 +89,38 @@ def test_where_all_is_open_the_largest_class_known_is_not_the_space() -> None:
     (found,) = configuration_space(mechanism, given, pieces, classes, ("undecided", ""))
     assert found.dimension is None
     assert found.verdict.is_undecided
+
+
+def test_a_chain_of_dyads_is_a_complete_intersection_without_a_basis(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A crank with four dyads, each over the one before: fibre by fibre a curve, off finitely many points.
+
+    C1 G1 = C1 C2 are as long, so that the second dyad may turn freely where C1 is G2: a circle, no surface.
+    """
+    text = """name = "four dyads"
+inputs = ["A"]
+output = { rate = "G4" }
+[links]
+ground = { points = { A = [0, 0], G1 = [6, -1], G2 = [7, 1], G3 = [7, 0], G4 = [2, 1] } }
+AP = 5
+PC1 = 6
+C1G1 = 3
+C1C2 = 3
+C2G2 = 3
+C2C3 = 5
+C3G3 = 7
+C3C4 = 7
+C4G4 = 3
+[joints]
+"""
+    joints = "\n".join(
+        f'{name} = "R"' for name in ("A", "P", *(f"{p}{k}" for k in range(1, 5) for p in "CG"))
+    )
+
+    class Refused(Ideal):
+        @property
+        def dimension(self) -> Known[int]:
+            raise AssertionError("no basis of all loop equations is needed")
+
+    given = conditions(velocity_equation(loads(text + joints)))
+    monkeypatch.setattr("singsym.classes.configuration_space.Ideal", Refused)
+    assert _is_complete_intersection(given)

@@ -10,7 +10,7 @@ from singsym.kinematics.placement import ConfigurationSpace
 from singsym.kinematics.reduction import reduce
 from singsym.kinematics.velocity import velocity_equation
 from singsym.mechanism import load
-from singsym.polynomials import Ring
+from singsym.polynomials import Polynomial, Ring
 from tests.kinematics.two_dof import collinear, two_dof
 
 
@@ -135,3 +135,20 @@ def test_four_points_in_a_plane_and_a_link_across_an_axis() -> None:
         found = names.recognise(polynomial)
         assert found is not None
         assert found.quantity.words == words
+
+
+def test_a_long_factor_is_not_squared_where_no_length_could_be_its_root() -> None:
+    """In the plane no name is a length, and the square of a minor with thousands of terms has millions."""
+    ring = Ring(("x", "y"))
+    x, y = ring.gens
+    points = {"O": (ring.zero, ring.zero), "A": (ring.one, ring.zero), "B": (x, y)}
+    seen = []
+
+    class Counting(Certifier):
+        def normal_form(self, polynomial: Polynomial) -> Polynomial:
+            seen.append(polynomial.total_degree)
+            return super().normal_form(polynomial)
+
+    names = PointNames(Counting(ConfigurationSpace(ring, (), points=points)))
+    assert names.recognise((x + y + 1) ** 9 + x) is None
+    assert max(seen) == 9

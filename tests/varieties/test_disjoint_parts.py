@@ -101,3 +101,17 @@ def test_a_dyad_in_line_between_two_cranks_comes_apart() -> None:
     ):  # of |PQ| / 4 from P to (u, v): 7 from Q beyond it, or before
         direction = 3 * u - 7 * px + 4 * qx if end > 1 else 11 * u - 7 * px - 4 * qx
         assert sum(direction.primitive() in {p.primitive() for p in part} for part in parts) == 1
+
+
+def test_a_leg_as_long_as_its_crank_comes_apart_in_its_shorter_form() -> None:
+    """|P| = |P C| = 4 with |P|^2 taken from |P C|^2, |Q C| = 5: C = (5 P + 4 Q) / 9 or 5 P - 4 Q."""
+    ring = Ring(("px", "py", "qx", "qy", "u", "v"))
+    px, py, qx, qy, u, v = ring.gens
+    cranks = px**2 + py**2 - 16, (qx - 3) ** 2 + (qy - 2) ** 2 - 25
+    legs = 2 * px * u + 2 * py * v - u**2 - v**2, (u - qx) ** 2 + (v - qy) ** 2 - 25
+    in_line = (qx - px) * (v - py) - (qy - py) * (u - px)
+    first, second = disjoint_parts((*cranks, *legs, in_line))
+    found = [{p.primitive() for p in part if p.total_degree == 1} for part in (first, second)]
+    expected = [9 * u - 5 * px - 4 * qx, 9 * v - 5 * py - 4 * qy], [u - 5 * px + 4 * qx, v - 5 * py + 4 * qy]
+    assert {*map(frozenset, found)} == {frozenset(p.primitive() for p in pair) for pair in expected}
+    assert all(len(part) == 5 for part in (first, second))

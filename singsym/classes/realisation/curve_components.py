@@ -19,7 +19,7 @@ from singsym.polynomials import Equations
 from singsym.varieties.real.curves.equations import NotACurve
 from singsym.varieties.real.curves.parts import components_outside
 from singsym.varieties.real.curves.real_curve import real_curve
-from singsym.varieties.real.modules.curve_components import components_off
+from singsym.varieties.real.modules.curve_components import components_off, parts_of_curve
 from singsym.varieties.real.points.exact_point import RealPoint
 
 _CROSSING = "parts of one set may meet, and were counted apart"
@@ -115,6 +115,8 @@ def _components(equations: Equations, exclusions: tuple[Equations, ...]) -> int:
     """Those of one curve; raises `Undecided`."""
     with attempt("components by modules", share=1 / 2) as budget:
         return components_off(equations, exclusions, budget)
+    if (parts := parts_of_curve(equations)) is not None:
+        return sum(_components(part, exclusions) for part in parts)
     ideal = Ideal(equations[0].ring, equations)
     curve = real_curve(ideal)
     if curve.verdict.is_undecided:

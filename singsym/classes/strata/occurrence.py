@@ -15,7 +15,7 @@ from singsym.effort.verdict import Known, Premises, Verdict
 from singsym.elimination import engines
 from singsym.elimination.memo import remember
 from singsym.varieties.decomposition import Component
-from singsym.varieties.real.modules.module_points import has_no_assembly
+from singsym.varieties.real.modules.no_assembly import has_no_assembly
 from singsym.varieties.real.numerical.sampling import Points, numerical_points
 from singsym.varieties.real.points.finite_sets import real_points
 from singsym.varieties.real.proofs.emptiness import is_empty_over_reals, is_excluded

@@ -24,7 +24,8 @@ from singsym.varieties.real.modules.coverings import Covering, coverings, is_arc
 from singsym.varieties.real.modules.crossing_curves import components_of_crossing, crossing_parts
 from singsym.varieties.real.modules.curve_point import CurvePoint
 from singsym.varieties.real.modules.lifted_curve import LiftedCurve
-from singsym.varieties.real.modules.module_points import has_no_assembly, points_of, without_given
+from singsym.varieties.real.modules.module_points import points_of, without_given
+from singsym.varieties.real.modules.no_assembly import has_no_assembly
 from singsym.varieties.real.modules.towers import Tower, towers
 from singsym.varieties.real.points.boxed_point import BoxPoint
 from singsym.varieties.real.points.intervals import sign_on_box
@@ -43,10 +44,8 @@ def components_off(equations: Equations, exclusions: Sequence[Equations], budget
     >>> components_off(four_bar, (), Budget()), components_off(four_bar, ((y,), (c, s)), Budget())
     (2, 2)
     """
-    parts = disjoint_parts(equations)
-    if len(parts) > 1:
-        there = [part for part in parts if not _is_no_curve(part)]
-        return sum(components_off(part, exclusions, budget) for part in there)
+    if (parts := parts_of_curve(equations)) is not None:
+        return sum(components_off(part, exclusions, budget) for part in parts)
     left, given = without_given(equations)
     groups = [_with_given(group, given, left) for group in exclusions] if left else []
     for over in towers(left):
@@ -58,6 +57,12 @@ def components_off(equations: Equations, exclusions: Sequence[Equations], budget
     key = (equations[0].ring, frozenset(p.primitive() for p in equations))
     points = remember("components by modules", key, lambda: _points(equations, budget), budget)
     return sum(not any(_lies_in(p, group, equations) for group in exclusions) for p in points)
+
+
+def parts_of_curve(equations: Equations) -> tuple[Equations, ...] | None:
+    """Disjoint parts of a curve, without those that are seen to have no point; None where it is one part."""
+    parts = disjoint_parts(equations)
+    return None if len(parts) == 1 else tuple(part for part in parts if not _is_no_curve(part))
 
 
 def _is_no_curve(part: Equations) -> bool:

@@ -20,11 +20,13 @@ from singsym.varieties.real.dimension.triangular_fibres import Triangular
 from singsym.varieties.real.modules.assemblies import dyad, is_round
 
 
-def dimension_bound(equations: Equations) -> Known[int] | None:
+def dimension_bound(equations: Equations, *, complex_too: bool = False) -> Known[int] | None:
     """A bound of the dimension of the real zeros; `None` where it is not found.
 
     Lemma: over a point of the core a dyad on a circle has two real solutions at most where not all
-    coefficients of its line vanish, and a circle of them at most where they do.
+    coefficients of its line vanish, and a circle of them at most where they do.  So it is over C where the
+    square of the radius is a number other than zero: such a circle contains no line.
+    complex_too: whether it has to be a bound of the complex zeros.
 
     >>> from singsym.polynomials import Ring
     >>> c, s, x, y = Ring(("c", "s", "x", "y")).gens
@@ -35,7 +37,7 @@ def dimension_bound(equations: Equations) -> Known[int] | None:
     Known(value=1, certainty='proven')
     """
     core, dyads = _apart(*with_last_modules(equations, 2))
-    if not dyads or not core:
+    if not dyads or not core or (complex_too and not all(map(_contains_no_line, dyads))):
         return None
     premises = Premises()
     with attempt("the dimension of a core", patience.FIRST_MODULE.work):
@@ -102,6 +104,16 @@ def _lines(module: Module) -> tuple[Polynomial, ...] | None:
     if found is None or not is_round(module) or (found.pivot is not None and not found.pivot.is_constant):
         return None
     return tuple(found.line.values())
+
+
+def _contains_no_line(module: Module) -> bool:
+    """Whether the square of the radius of a dyad's circle is a number other than zero."""
+    found = dyad(module)
+    assert found is not None
+    zero = module.equations[0].ring.zero
+    a, b, c, d = (found.conic.get(m, zero) for m in ((2, 0), (1, 0), (0, 1), (0, 0)))
+    square = b * b + c * c - 4 * a * d
+    return square.is_constant and not square.is_zero
 
 
 def _bound(core: Equations, dyads: Sequence[Module], names: Collection[str], premises: Premises) -> int:

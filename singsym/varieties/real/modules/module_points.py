@@ -16,13 +16,12 @@ from flint import arb
 from singsym.effort import patience
 from singsym.effort.attempts import attempt
 from singsym.effort.budget import Undecided, current
-from singsym.effort.verdict import Known, Premises, Verdict
+from singsym.effort.verdict import Known, Premises
 from singsym.elimination.engines.base import NotZeroDimensional
 from singsym.elimination.linear_substitution import Substitution, solved_variable
 from singsym.elimination.memo import remember
 from singsym.polynomials import Equations, Polynomial, Ring
-from singsym.polynomials.block_form import Module, SolvingOrder, block_form, independent_parts
-from singsym.varieties.disjoint_parts import disjoint_parts
+from singsym.polynomials.block_form import Module, SolvingOrder, block_form
 from singsym.varieties.real.modules.assemblies import assemblies, dyad, is_simple, value_at
 from singsym.varieties.real.modules.coverings import Covering, coverings
 from singsym.varieties.real.modules.lifted_curve import is_tower, points_on_tower
@@ -32,7 +31,6 @@ from singsym.varieties.real.points.boxed_point import BoxPoint, box_around
 from singsym.varieties.real.points.exact_point import RealPoint
 from singsym.varieties.real.points.finite_sets import real_points
 from singsym.varieties.real.points.intervals import at_precision
-from singsym.varieties.splitting import used_ring
 
 PRECISIONS = (256, 1024)
 """Bits of the balls of a first module, tried in turn where something is not seen."""
@@ -64,46 +62,6 @@ def module_points(equations: Equations) -> Known[tuple[BoxPoint, ...]]:
     return remember("points by modules", key, lambda: _points(equations))
 
 
-def has_no_assembly(equations: Equations) -> Verdict:
-    """Whether some modules that determine their unknowns have no real solution: yes, or undecided.
-
-    So it is of a curve, a circle with dyads over it, where no loop is left; and of equations without a
-    variable in common, where it is so of some of them.
-
-    >>> from singsym.polynomials import Ring
-    >>> x, y, z = Ring(("x", "y", "z")).gens
-    >>> has_no_assembly((x**2 - 4, (y - x) ** 2 - x - 1, y * z - 1, x + 1)).is_yes
-    True
-    """
-    if not equations:
-        return Verdict.undecided("there are no equations")
-    own = used_ring(equations[0].ring, equations)
-    premises, reasons = Premises(), dict[str, None]()
-    for piece in disjoint_parts(tuple(map(own.convert, equations))):
-        parts = map(_has_no_assembly, independent_parts(without_given(piece)[0]))
-        found = next((answer for answer in parts if answer.is_yes), None)
-        if found is None:
-            return Verdict.undecided("modules do not show that there is no real point")
-        premises.rest_on(found.certainty)
-        reasons[found.reason] = None
-    return Verdict.yes(premises.certainty, reason="; ".join(reasons))
-
-
-def _has_no_assembly(equations: Equations) -> Verdict:
-    own = used_ring(equations[0].ring, equations)
-    equations = tuple(dict.fromkeys((*own.relations, *map(own.convert, equations))))
-    if comes_apart(equations):
-        with attempt("modules without an assembly", patience.ASSEMBLIES.work):
-            found = module_points(equations)
-            if not found.value:
-                return Verdict.yes(found.certainty, reason="modules of the equations have no common assembly")
-    with attempt("modules over a circle without an assembly", patience.ASSEMBLIES.work):
-        curves = curves_over_circle(equations)
-        if curves is not None and not any(curve.points for curve in curves.value):
-            return Verdict.yes(curves.certainty, reason="modules over a circle have no common assembly")
-    return Verdict.undecided("modules do not show that there is no real point")
-
-
 def curves_over_circle(equations: Equations) -> Known[tuple[Covering, ...]] | None:
     """All curves of equations that are a circle with dyads over it; None where they are not.
 
@@ -119,7 +77,7 @@ def curves_over_circle(equations: Equations) -> Known[tuple[Covering, ...]] | No
 def points_of(equations: Equations) -> Known[tuple[RealPoint, ...]] | Known[tuple[BoxPoint, ...]]:
     """All real points of finitely many: by algebra where they are few, so that they may be multiple."""
     many = _bezout(equations)
-    if many > FEW_SOLUTIONS and all(map(_is_simple, _in_order(equations[0].ring, equations).modules)):
+    if many > FEW_SOLUTIONS and all(map(_is_simple, in_order(equations[0].ring, equations).modules)):
         with attempt("a finite set by modules", share=1 / 2):
             return module_points(equations)
     if many <= MOST_SOLUTIONS:
@@ -137,7 +95,7 @@ def comes_apart(equations: Equations) -> bool:
     (True, False)
     """
     whole = len(equations[0].ring.names)
-    return all(len(m.unknowns) < whole for m in _in_order(equations[0].ring, equations).modules)
+    return all(len(m.unknowns) < whole for m in in_order(equations[0].ring, equations).modules)
 
 
 def _points(equations: Equations) -> Known[tuple[BoxPoint, ...]]:
@@ -189,14 +147,14 @@ def with_values(point: BoxPoint, given: Sequence[Substitution], ring: Ring) -> B
     return box_around(equations, known)
 
 
-def _in_order(ring: Ring, equations: Equations) -> SolvingOrder:
+def in_order(ring: Ring, equations: Equations) -> SolvingOrder:
     """The modules of equations; fixed numbers are determined by their own minimal polynomials."""
     return block_form(tuple(dict.fromkeys((*ring.relations, *equations))))
 
 
 def _of_modules(equations: Equations) -> Known[tuple[BoxPoint, ...]]:
     ring = equations[0].ring
-    form = _in_order(ring, equations)
+    form = in_order(ring, equations)
     if any(triad(m) is not None for m in form.modules):
         with attempt("points by modules, triads in balls", share=1 / 2):
             return _in_balls(_Solving(ring, form, triads=True))
@@ -327,7 +285,7 @@ class _Solving:
         """Whether a polynomial vanishes at what is known: by exact algebra in the ring of what it needs."""
         if p.is_zero:
             return True
-        form = _in_order(self.ring, known.equations)
+        form = in_order(self.ring, known.equations)
         equations = tuple(q for m in form.determining(p.variables) for q in m.equations)
         own = self.ring.with_names(
             tuple(n for n in self.ring.names if any(n in e.variables for e in equations))

@@ -65,3 +65,16 @@ def test_what_is_left_where_a_dyad_turns_freely_counts() -> None:
     cut = (C - 2) * (C**2 + 3 * C * S - 5 * S**2 + 7 * C - 11)
     assert not is_dimension_at_most((*free, cut), (), 0).value
     assert is_dimension_at_most((*free, cut), (), 1).value
+
+
+def test_a_circle_of_radius_zero_holds_lines_over_the_complex_numbers() -> None:
+    """c^2 + s^2 = 0 with x^2 + y^2 = 0 and c x + s y = 0: over s = i c, c not 0, all (x, i x), a plane.
+
+    Of the real zeros, c = s = 0 = x = y, it is a bound all the same."""
+    circles = (C**2 + S**2, X**2 + Y**2, C * Y - S * X, U, V)
+    found = dimension_bound(circles)
+    assert found is not None
+    assert found.value == 1
+    assert dimension_bound(circles, complex_too=True) is None
+    four_bar = (CRANK, *dyad_over(9), U, V)
+    assert dimension_bound(four_bar, complex_too=True) == dimension_bound(four_bar)

@@ -10,7 +10,8 @@ from singsym.effort.budget import Undecided
 from singsym.polynomials import Ring
 from singsym.polynomials.ring import AlgebraicConstant
 from singsym.varieties.real.modules import module_points as by_modules
-from singsym.varieties.real.modules.module_points import has_no_assembly, module_points
+from singsym.varieties.real.modules.module_points import module_points
+from singsym.varieties.real.modules.no_assembly import has_no_assembly
 from singsym.varieties.real.points.finite_sets import real_points
 
 R = Ring(("c", "s", "u", "v", "x", "y"))
@@ -124,6 +125,15 @@ def test_what_turns_freely_beside_is_left_aside(radius: int, empty: bool) -> Non
     wheel = u**2 + v**2 - r
     circle = (cx - 3) ** 2 + (cy + 1) ** 2 - radius**2
     assert has_no_assembly((*ring.relations, wheel, *crank, circle)).is_yes == empty
+
+
+@pytest.mark.parametrize(("distance", "empty"), [(5, True), (3, False)])
+def test_a_hard_module_does_not_hide_that_what_it_needs_has_no_assembly(distance: int, empty: bool) -> None:
+    """Two circles of radius 2 meet up to a distance of 4; over them stand two equations of degree 20."""
+    ring = Ring(("x", "y", "u", "v"))
+    x, y, u, v = ring.gens
+    circles = x**2 + y**2 - 4, (x - distance) ** 2 + y**2 - 4
+    assert has_no_assembly((*circles, u**20 + v * x - 1, v**20 + u * y - 1)).is_yes == empty
 
 
 def test_a_fixed_number_is_no_unknown() -> None:
