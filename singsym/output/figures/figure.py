@@ -24,6 +24,9 @@ if TYPE_CHECKING:
     from singsym.output.figures.scene import Scene, Stage
     from singsym.output.figures.style import Floats
 
+_TITLE, _BELOW = 60, 75
+"""Letters of a title's line, and of a line below, that fit the width of a figure."""
+
 
 def plot_mechanism(
     mechanism: Mechanism,
@@ -178,7 +181,13 @@ def _write_below(axes: Any, mechanism: Mechanism, motions: Sequence[Moving], *, 
     from singsym.output.figures.motions import WORDS
     from singsym.output.figures.style import INPUT, MOTION, OUTPUT
 
-    rows = len(motions) + 1
+    said = []
+    for moving in motions:
+        kind = moving.motion.type
+        faint = "" if moving.later is None else " (faint: a little later)"
+        lines = wrap(f"→ {WORDS[kind]}{faint}", _BELOW, subsequent_indent="    ")
+        said += [(line, MOTION[str(kind)]) for line in lines]
+    rows = len(said) + 1
     figure = axes.figure
     line = 0.22 / figure.get_figheight() if alone else 0.0
     if alone:
@@ -194,10 +203,8 @@ def _write_below(axes: Any, mechanism: Mechanism, motions: Sequence[Moving], *, 
             look = {"fontsize": 8, "color": colour, "ha": side, "annotation_clip": False}
             axes.annotate(words, corner, below, "axes fraction", "offset points", **look)
 
-    for row, moving in enumerate(reversed(motions), 1):
-        kind = moving.motion.type
-        faint = "" if moving.later is None else " (faint: a little later)"
-        write(f"→ {WORDS[kind]}{faint}", row, MOTION[str(kind)])
+    for row, (words, colour) in enumerate(reversed(said), 1):
+        write(words, row, colour)
     write(_inputs(mechanism), 0, INPUT)
     write(_outputs(mechanism), 0, OUTPUT, "right")
 
@@ -223,7 +230,7 @@ def _height(scene: Scene) -> float:
 
 def _wrapped(title: str) -> str:
     """A title in lines that fit the width of a figure."""
-    return "\n".join(wrap(title, 60))
+    return "\n".join(wrap(title, _TITLE))
 
 
 def _words(mechanism: Mechanism) -> str:

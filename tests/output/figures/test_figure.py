@@ -97,6 +97,17 @@ def test_every_class_has_a_picture_with_words(linkage: Classification) -> None:
     assert all(p.svg().startswith("<svg") and p.description for p in pictures)
 
 
+def test_what_is_written_below_a_picture_stays_on_it(linkage: Classification) -> None:
+    """Also the words for redundant passive motion, that are longer than a line."""
+    for found in (c for c in linkage.classes if c.witnesses):
+        figure = plot_class(linkage, found).figure
+        figure.draw_without_rendering()
+        for text in figure.texts:
+            box = text.get_window_extent()
+            assert box.x0 >= 0, text.get_text()
+            assert box.x1 <= figure.bbox.width, text.get_text()
+
+
 def test_curves_have_the_components_that_are_proven_and_lie_on_their_loci(linkage: Classification) -> None:
     traces = trace_loci(linkage)
     assert [len(t.components) for t in traces] == [locus.components for locus in linkage.loci]
