@@ -280,13 +280,16 @@ class _Elimination:
         return prod(parts, start=self.ring.one)
 
     def _tidy_columns(self) -> None:
-        """Columns without their contents: where pivots came as factors into others, these get short again."""
+        """Columns without their contents: where pivots came as factors into others, these get short again.
+
+        Single terms stay: with them entries are still seen as coordinates of vectors.
+        """
         for j in range(len(self.columns)):
             support = self._column(j)
             if len(support) < 2:
                 continue
             units = self._units([self.entries[i][j] for i in support])
-            if not units.is_constant:
+            if len(units) > 1:
                 for i in support:
                     self.entries[i][j] = self.entries[i][j].exact_quotient(units)
 

@@ -105,15 +105,15 @@ def test_spherical_joint_with_an_idle_spin() -> None:
 
 
 def test_a_pivot_stays_in_no_column() -> None:
-    """Two pivots u leave u^2 w, u^2 z in the last column by row operations; u has no zero, and goes.
+    """Two pivots p leave p^2 w, p^2 z in the last column by row operations; p has no zero, and goes.
 
     Source: Cramer's rule for the two velocities that are solved for.
     """
-    ring = Ring(("u", "x", "y", "z", "w"))
-    u, x, y, z, w = ring.gens
-    o = ring.zero
-    certifier = Certifier(ConfigurationSpace(ring, (), exclusions=((u,),)))
-    chain_of_three = PolynomialMatrix.of(ring, [[u, x, o, o], [o, u, y, o], [z, o, o, w], [w, o, o, z]])
+    ring = Ring(("u", "v", "x", "y", "z", "w"))
+    u, v, x, y, z, w = ring.gens
+    o, p = ring.zero, u + v
+    certifier = Certifier(ConfigurationSpace(ring, (), exclusions=((p,),)))
+    chain_of_three = PolynomialMatrix.of(ring, [[p, x, o, o], [o, p, y, o], [z, o, o, w], [w, o, o, z]])
     found = reduce_submatrix(chain_of_three, certifier)
     assert found.constant == 2
     columns = list(zip(*found.matrix.rows, strict=True))
