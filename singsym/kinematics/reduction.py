@@ -286,9 +286,10 @@ class _Elimination:
         """
         for j in range(len(self.columns)):
             support = self._column(j)
-            if len(support) < 2:
+            entries = [self.entries[i][j] for i in support]
+            if len(entries) < 2 or any(len(e) == 1 for e in entries):
                 continue
-            units = self._units([self.entries[i][j] for i in support])
+            units = self._units(entries)
             if len(units) > 1:
                 for i in support:
                     self.entries[i][j] = self.entries[i][j].exact_quotient(units)
