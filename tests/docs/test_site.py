@@ -17,7 +17,7 @@ import singsym
 pytest.importorskip("mkdocs")
 pytest.importorskip("markdown_exec")
 ROOT = Path(singsym.__file__).parents[1]
-pytestmark = [pytest.mark.slow, pytest.mark.engines]
+pytestmark = [pytest.mark.slow, pytest.mark.engines, pytest.mark.xdist_group("site")]
 
 
 @pytest.fixture(scope="module")

@@ -17,6 +17,8 @@ from singsym.mechanism import load
 from singsym.output.html.mathml import name
 from singsym.output.html.report import report
 
+pytestmark = pytest.mark.xdist_group("report")
+
 
 class Page(HTMLParser):
     """Collects the elements of a page."""
