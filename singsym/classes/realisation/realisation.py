@@ -213,10 +213,10 @@ def _given_in_one(piece: Piece, system: RealSystem, task: RealTask) -> tuple[Pie
         isolated = isolated_points(system, task.found)
         if isolated is not None:
             return _finite(piece, isolated)
+    if codimension is None and is_positive_combination_seen(system.closed_equations):
+        return _exactly(piece, Known((-1, None)))
     patch = unsplit(system.closed_equations, system.ring)
     if codimension is None:
-        if is_positive_combination_seen(system.closed_equations):
-            return _exactly(piece, Known((-1, None)))
         empty = is_proven_empty(restricted(system, patch))
         if empty.is_yes:
             return _exactly(piece, Known((-1, None), empty.certainty))

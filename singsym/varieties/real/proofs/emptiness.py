@@ -26,12 +26,11 @@ from singsym.varieties.real.points.exact_point import RealPoint
 from singsym.varieties.real.points.finite_sets import real_points
 from singsym.varieties.real.points.roots import has_real_root
 from singsym.varieties.real.proofs.critical_points import component_samples
-from singsym.varieties.real.proofs.positive_combinations import positive_combination
+from singsym.varieties.real.proofs.positive_combinations import forced_to_vanish
 from singsym.varieties.real.proofs.real_consequences import real_consequences
 from singsym.varieties.real.system import RealSystem
 
 CONTRADICTED = "sums of squares bound the variables, and an equation or a condition fails within the bounds"
-
 POSITIVE = "a combination of the equations is a sum of squares and a positive number"
 
 
@@ -64,12 +63,10 @@ def _decided(system: RealSystem, budget: Budget, seed: int, tries: int) -> Verdi
     if forced is None:
         return Verdict.yes(premises.certainty, reason=CONTRADICTED)
     equations = (*equations, *forced)
-    positive = positive_combination(equations)
-    squares = None if positive is None else sum_of_squares(positive)
-    if squares is not None:
-        if any(root.is_constant for root in squares[1]):
-            return Verdict.yes(premises.certainty, reason=POSITIVE)
-        equations = (*equations, *squares[1])
+    squared = forced_to_vanish(equations)
+    if any(root.is_constant for root in squared):
+        return Verdict.yes(premises.certainty, reason=POSITIVE)
+    equations = (*equations, *squared)
     pieces = premises.take(
         decompose(equations, system.nonzero, ring=system.ring, excluded=system.exclusions, budget=budget)
     )

@@ -36,9 +36,22 @@ def is_positive_combination_seen(polynomials: Sequence[Polynomial]) -> bool:
     >>> is_positive_combination_seen([c**2 + s**2 - 1, (d - 3 * s) ** 2 - 9 * s**2 + 27 * c + 45])
     True
     """
+    return any(root.is_constant for root in forced_to_vanish(polynomials))
+
+
+def forced_to_vanish(polynomials: Sequence[Polynomial]) -> tuple[Polynomial, ...]:
+    """What vanishes at all common real zeros, as a combination is a sum of the squares; none if none is seen.
+
+    A number among them says that there is no real zero.
+
+    >>> from singsym.polynomials import Ring
+    >>> x, y = Ring(("x", "y")).gens
+    >>> forced_to_vanish([x**2 + y**2 - 4, x**2 + y**2 - 6 * x + 8])
+    (x - 2, y)
+    """
     combination = positive_combination(polynomials)
     found = None if combination is None else sum_of_squares(combination)
-    return found is not None and any(root.is_constant for root in found[1])
+    return () if found is None else found[1]
 
 
 def positive_combination(polynomials: Sequence[Polynomial]) -> Polynomial | None:
